@@ -1,0 +1,57 @@
+// Cameras and flythroughs. Eye space: right-handed, camera at the origin looking down -z, y up.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/gltf.h"
+#include "scene/world.h"
+
+namespace obscura::scene {
+
+struct Camera {
+    glm::vec3 eye{0.0f, 1.7f, 4.0f};      // world, metres
+    glm::vec3 target{0.0f, 1.0f, 0.0f};   // world
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
+    float fovY = 1.0471976f;              // radians, of the visible part (the guard band adds to it)
+    float nearPlane = 0.05f;              // metres; far is at infinity
+    float orthoHalfHeight = 0.0f;         // > 0: orthographic, half the visible height in metres
+
+    glm::mat4 view() const;  // world -> eye
+    // Eye -> clip, Vulkan: y down, depth reversed (1 near, 0 at infinity). `size` is the whole image in pixels, guard
+    // band included, `visible` the part that fovY spans.
+    glm::mat4 projection(glm::vec2 size, glm::vec2 visible) const;
+};
+
+// A camera that sees the bounds from a three-quarter view.
+Camera frame(const Bounds& bounds);
+// Camera of a glTF node (index among the nodes that carry one, in `order`), posed.
+Camera lensCamera(const Instance& instance, const Pose& pose, int index);
+int lensCount(const Model& model);
+
+// {"eye":[..],"target":[..],"up":[..],"verticalFovDegrees":60,"near":0.05}; fields but eye and target optional.
+Camera loadCamera(const std::filesystem::path& file);
+
+// A flythrough: keys of {time, eye, target, fov}, Catmull-Rom (centripetal) in between, JSON in content/.
+// {"name":..,"scene":..,"duration":s,"loop":bool,"keys":[{"time":0,"eye":[],"target":[],"verticalFovDegrees":60}],
+//  "events":[...]} Unknown fields are an error that names them.
+class CameraPath {
+public:
+    struct Key {
+        float time = 0.0f;
+        glm::vec3 eye{0.0f}, target{0.0f};
+        float fovY = 1.0471976f;
+    };
+    std::string name;
+    std::string scene;
+    float duration = 0.0f;
+    bool loop = true;
+    std::vector<Key> keys;  // times strictly increasing, at least one
+
+    Camera at(float time) const;
+    void save(const std::filesystem::path& file) const;  // temporary name, then rename
+};
+CameraPath loadCameraPath(const std::filesystem::path& file);
+
+}  // namespace obscura::scene
