@@ -1,0 +1,142 @@
+// A Vulkan 1.3 device, created by us or adopted from a host, with one queue. Owns deferred destruction: what is released
+// during frame n is destroyed once frame n has left the GPU. Throws nothing; a failure is a Status and one log line.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gpu/api.h"
+
+namespace obscura::gpu {
+
+enum class Status : uint8_t { ok, invalid, unsupported, outOfMemory, deviceLost, shaderError, outOfDate };
+const char* name(Status);
+Status fromVulkan(VkResult);
+
+enum class Severity : uint8_t { info, warning, error };
+using Log = std::function<void(Severity, const char* message)>;
+
+struct DeviceOptions {
+    std::string name;                 // part of a device name, case-insensitive; empty: discrete, integrated, virtual, software
+    bool validation = false;          // core validation; ignored with a warning when the layer is not installed
+    bool synchronization = false;     // synchronization validation as well
+    std::vector<const char*> instanceExtensions;  // what the window system asks for
+    bool presentation = false;        // enables VK_KHR_swapchain where offered
+    uint32_t framesInFlight = 2;
+    std::string pipelineCacheFile;    // read at creation, written at destruction when changed; empty: none
+    Log log;
+};
+
+struct AdoptedDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;   // may stay null: then immediate uploads are refused
+    uint32_t queueFamily = 0;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+    uint32_t framesInFlight = 2;
+    const VkAllocationCallbacks* allocator = nullptr;
+    Log log;
+};
+
+struct Caps {
+    std::string deviceName;
+    VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+    bool software = false;            // a CPU rasterizer: timestamps need a barrier behind them (see Timer)
+    bool timestamps = false;
+    double timestampPeriod = 1.0;     // nanoseconds a tick
+    uint64_t timestampMask = ~0ull;
+    bool debugUtils = false;
+    bool presentation = false;
+    float maxAnisotropy = 1.0f;       // 1 where the feature is off
+    uint32_t maxImageSize = 4096;     // pixels a side, 2D
+};
+
+enum class Filter : uint8_t { nearest, linear };
+
+class Device {
+public:
+    static std::unique_ptr<Device> create(const DeviceOptions& options, std::string& error);
+    static std::unique_ptr<Device> adopt(const AdoptedDevice& host, std::string& error);
+    // Names of all devices, "name (type)", in the order `create` prefers.
+    static std::vector<std::string> list();
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const Api& vk() const { return m_vk; }
+    VkInstance instance() const { return m_instance; }
+    VkPhysicalDevice physical() const { return m_physical; }
+    VkDevice handle() const { return m_device; }
+    VkQueue queue() const { return m_queue; }
+    uint32_t queueFamily() const { return m_queueFamily; }
+    const Caps& caps() const { return m_caps; }
+    VkPipelineCache pipelineCache() const { return m_pipelineCache; }
+    const VkAllocationCallbacks* allocator() const { return m_allocator; }
+    uint32_t framesInFlight() const { return m_framesInFlight; }
+    uint64_t validationMessages() const { return m_validationMessages; }  // warnings and errors so far
+
+    // Starts frame n+1: destroys what was released framesInFlight frames ago. The caller has waited for that frame.
+    void nextFrame();
+    uint64_t frame() const { return m_frame; }
+    void waitIdle();  // and destroys everything released
+
+    // Destroys the handle once the current frame has left the GPU. Null handles are ignored.
+    void release(VkObjectType type, uint64_t handle);
+    template <class Handle> void release(VkObjectType type, Handle handle) { release(type, (uint64_t)handle); }
+
+    // Memory. `bytes` counts towards memoryUse() until the memory is released.
+    Status allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
+                    VkDeviceMemory& memory, VkMemoryPropertyFlags* got = nullptr);
+    void releaseMemory(VkDeviceMemory memory, uint64_t bytes);
+    uint64_t memoryUse() const { return m_memoryUse; }  // bytes of device memory allocated by us
+
+    VkSampler sampler(Filter filter, VkSamplerAddressMode address);  // cached, owned by the device
+    VkSampler sampler(const VkSamplerCreateInfo& info);              // likewise
+    void nameObject(VkObjectType type, uint64_t handle, const char* name) const;
+    void log(Severity severity, const std::string& message) const;
+    bool formatSupports(VkFormat format, VkFormatFeatureFlags features) const;  // optimal tiling
+
+    // Records and runs commands at once, waits for them. For loading and tests; refused without a queue.
+    Status runNow(const std::function<void(VkCommandBuffer)>& record);
+
+private:
+    Device() = default;
+    Status finish();
+    void destroy(VkObjectType type, uint64_t handle);
+    struct Released { uint64_t frame; VkObjectType type; uint64_t handle; };
+
+    Api m_vk;
+    VkInstance m_instance = VK_NULL_HANDLE;
+    VkPhysicalDevice m_physical = VK_NULL_HANDLE;
+    VkDevice m_device = VK_NULL_HANDLE;
+    VkQueue m_queue = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT m_messenger = VK_NULL_HANDLE;
+    VkPipelineCache m_pipelineCache = VK_NULL_HANDLE;
+    VkCommandPool m_commandPool = VK_NULL_HANDLE;
+    const VkAllocationCallbacks* m_allocator = nullptr;
+    uint32_t m_queueFamily = 0;
+    uint32_t m_framesInFlight = 2;
+    bool m_owned = false;
+    Caps m_caps;
+    VkPhysicalDeviceMemoryProperties m_memory{};
+    Log m_log;
+    std::string m_pipelineCacheFile;
+    std::vector<uint8_t> m_pipelineCacheRead;
+    uint64_t m_frame = 0;
+    uint64_t m_memoryUse = 0;
+    uint64_t m_validationMessages = 0;
+    std::vector<Released> m_released;
+    struct CachedSampler { std::array<uint32_t, 18> key; VkSampler sampler; };
+    std::vector<CachedSampler> m_samplers;
+
+    friend VkBool32 onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                 const VkDebugUtilsMessengerCallbackDataEXT*, void*);
+};
+
+}  // namespace obscura::gpu

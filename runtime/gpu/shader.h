@@ -1,0 +1,79 @@
+// Shader code and what it says of itself. SPIR-V and its reflection are made at build time by obscura-compile-shaders and
+// embedded; a ShaderLibrary finds them by name ("ao/hbao/horizons.comp") and swaps them when a source file is edited.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <vulkan/vulkan_core.h>
+
+namespace obscura::gpu {
+
+enum class BindingKind : uint8_t { sampledImage, storageImage, uniformBuffer, storageBuffer };
+
+struct Binding {
+    uint32_t set = 0;
+    uint32_t binding = 0;
+    BindingKind kind = BindingKind::sampledImage;
+    bool reads = true;   // false: declared writeonly
+    bool writes = false; // storage that is not declared readonly
+    std::string name;
+};
+
+struct Shader {
+    VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    std::vector<uint32_t> spirv;
+    std::vector<Binding> bindings;        // sorted by set, binding
+    std::array<uint32_t, 3> workgroup{1, 1, 1};
+    uint32_t pushConstantBytes = 0;
+};
+
+// The form in which the build embeds one.
+struct EmbeddedShader {
+    const char* name;
+    std::span<const uint32_t> spirv;
+    const char* reflection;  // as describe() writes it
+};
+std::string describe(const Shader& shader);                          // one line of text
+bool undescribe(std::string_view text, Shader& shader);              // false if malformed
+
+// Compiles GLSL; on failure returns false and puts file, line and message in `error`. Given by runtime/gpu/compiler, so
+// that what only runs embedded shaders need not link glslang. `dependencies` receives every file read.
+using CompileShader = std::function<bool(const std::filesystem::path& file, const std::filesystem::path& root, Shader& out,
+                                         std::string& error, std::vector<std::filesystem::path>& dependencies)>;
+
+class ShaderLibrary {
+public:
+    void add(std::span<const EmbeddedShader> shaders);
+    // Null when there is none of that name. The pointer stays valid; `generation` tells when its content changed.
+    const Shader* find(std::string_view name) const;
+    uint64_t generation(std::string_view name) const;
+
+    // Hot reload: from now on poll() recompiles what was edited below `root` (the shaders folder).
+    void watch(const std::filesystem::path& root, CompileShader compile);
+    // Looks at file times; returns true when a shader changed. Cheap; call it a few times a second.
+    bool poll();
+    // Empty when every shader is good, else one text a broken shader.
+    std::vector<std::string> errors() const;
+
+private:
+    struct Entry {
+        Shader shader;
+        uint64_t generation = 0;
+        std::string error;
+        std::vector<std::filesystem::path> files;
+        std::filesystem::file_time_type stamp{};
+    };
+    std::map<std::string, Entry, std::less<>> m_entries;
+    std::filesystem::path m_root;
+    CompileShader m_compile;
+};
+
+}  // namespace obscura::gpu
