@@ -1,0 +1,152 @@
+// Obscura: ambient-obscurance methods for Vulkan 1.3. The one public header: needs only the Vulkan headers, C++17.
+//
+//   create() adopts your device; record() writes commands into your command buffer: depth and normals in, visibility out.
+//
+// Contract. Nothing is submitted or waited for. After the first frame at a size nothing is allocated. Call record()
+// outside rendering; bound pipelines, descriptor sets and push constants of both bind points are clobbered, dynamic state
+// is not. Inputs are read in shaders and come back in the layouts you name. No exception leaves; every failure is a
+// Status and one line to your log. A Context is used by one thread at a time; different contexts are independent.
+//
+// Space. Eye space: right-handed, camera at the origin looking down -z, y up; lengths in metres (or your unit: the falloff
+// has the same). Pixels count from the upper left. Visibility: 1 open, 0 blocked, linear.
+#ifndef OBSCURA_AO_H
+#define OBSCURA_AO_H
+
+#include <cstddef>
+#include <cstdint>
+#include <vulkan/vulkan_core.h>
+
+namespace obscura::ao {
+
+enum class Status : uint8_t { ok, invalid, unsupported, outOfMemory, deviceLost, shaderError };
+
+template <class T> struct List {  // a view of `count` items; owned by whoever made it
+    const T* items = nullptr;
+    size_t count = 0;
+    const T* begin() const { return items; }
+    const T* end() const { return items + count; }
+    size_t size() const { return count; }
+    const T& operator[](size_t i) const { return items[i]; }
+};
+
+// ---- What there is to choose ----------------------------------------------------------------------------------------
+
+struct Parameter {
+    const char* id;        // "directions"
+    const char* unit;      // "m", "px", "" for counts
+    float minimum, maximum, initial;
+    bool integer;          // whole numbers only
+    List<const char*> choices;  // named values 0..count-1; empty for plain numbers
+    const char* sentence;  // what it does and what it costs
+};
+
+struct Setting {
+    const char* id;        // of a Parameter
+    float value;
+};
+
+struct Preset {
+    const char* id;        // "default" comes first in every method
+    const char* sentence;
+    List<Setting> settings;  // over the initial values
+};
+
+enum Needs : uint32_t { kDepth = 1, kNormals = 2, kMotion = 4, kLayers = 8, kVolume = 16 };
+
+struct MethodInfo {
+    const char* id;        // "hbao"
+    const char* title;     // "Horizon-based ambient occlusion"
+    const char* paper;     // citation; empty for our own
+    const char* sentence;
+    uint32_t needs;        // Needs it cannot do without (missing normals are reconstructed)
+    List<Parameter> parameters;
+    List<Preset> presets;
+};
+
+// All methods, in the order keys and menus show them. Static storage.
+List<const MethodInfo*> methods();
+const MethodInfo* findMethod(const char* id);  // null when there is none
+
+// ---- How far occluders reach ----------------------------------------------------------------------------------------
+
+enum class FalloffKind : uint32_t { exponential, linear, quadratic, wendland, constant, ramp };
+
+struct Falloff {
+    FalloffKind kind = FalloffKind::quadratic;
+    float length = 2.0f;   // metres: exp(-d/length); 1-d/length; 1-(d/length)^2; ...; ramp: 1 up to here
+    float end = 0.0f;      // metres, ramp only: 0 from here on
+};
+// "quadratic:2", "exponential:0.5", "ramp:0.385:1". False when malformed or a length is not positive.
+bool parseFalloff(const char* text, Falloff& out);
+float evaluate(const Falloff& falloff, float distance);  // metres -> [0,1]
+float reach(const Falloff& falloff);                     // metres beyond which it counts as 0 (exponential: 1/256 is left)
+
+// ---- The door for host engines --------------------------------------------------------------------------------------
+
+enum class Severity : uint8_t { info, warning, error };
+
+struct DeviceDesc {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;    // Vulkan 1.3, synchronization2 enabled
+    uint32_t queueFamily = 0;            // of the command buffers given to record(); must do compute
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+    uint32_t framesInFlight = 2;         // record() may reuse what it used so many calls ago
+    const VkAllocationCallbacks* allocator = nullptr;  // host memory; may be null
+    void (*log)(void* user, Severity severity, const char* line) = nullptr;
+    void* logUser = nullptr;
+};
+
+struct Context;                          // opaque; destroy() before the device
+Status create(const DeviceDesc& desc, Context** context);
+void destroy(Context* context);          // the caller has waited for the GPU; null is ignored
+
+// Which method the next record() runs. Unknown ids and settings are Status::invalid with a log line that lists what there
+// is; values out of range are clamped. Pipelines are made here, not in record().
+struct MethodSettings {
+    const char* preset = "default";
+    List<Setting> settings;              // over the preset
+    Falloff falloff;
+};
+Status setMethod(Context* context, const char* id, const MethodSettings& settings);
+
+struct ImageView {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;   // 2D, mip 0; depth formats: depth aspect only
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // on entry and on return; contents must stay
+};
+
+enum class DepthKind : uint8_t { device, linear };          // linear: -z in metres
+enum class NormalKind : uint8_t { eye, world };
+enum class NormalEncoding : uint8_t { signedFloat, unsignedHalf, octahedral32 };  // xyz; xyz*0.5+0.5; uint, two snorm16
+
+struct Frame {
+    VkExtent2D size{};                   // of depth and normals, guard band included
+    VkExtent2D guard{};                  // px on each side that are read but not shown; visible = size - 2 guard
+    float projection[16] = {};           // eye -> clip of the whole image, columns, Vulkan clip space; any depth convention
+    float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // columns; used with world normals
+    ImageView depth;                     // device: D16, D24, D32 or R32F, sampled usage; linear: R32F
+    DepthKind depthKind = DepthKind::device;
+    ImageView normals;                   // optional: geometric normals, sampled usage
+    NormalKind normalKind = NormalKind::eye;
+    NormalEncoding normalEncoding = NormalEncoding::signedFloat;
+    uint64_t index = 0;                  // counts frames
+};
+
+struct Output {
+    Status status = Status::invalid;
+    VkImage image = VK_NULL_HANDLE;      // R16F, visible size; valid until the context has recorded framesInFlight more frames
+    VkImageView view = VK_NULL_HANDLE;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL: reads in compute and fragment shaders need no barrier
+};
+Output record(Context* context, VkCommandBuffer cmd, const Frame& frame);
+
+uint64_t memoryUse(const Context* context);  // bytes of device memory held
+
+struct PassTime { const char* name; double milliseconds; };
+List<PassTime> timings(const Context* context);  // of the newest finished frame; valid until the next record()
+
+}  // namespace obscura::ao
+
+#endif

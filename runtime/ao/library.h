@@ -1,0 +1,34 @@
+// The library as the sample uses it: the same passes as record() runs, added to the sample's own graph so that each
+// shows its own time. context.cpp is the other door and stands on this one.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ao/method.h"
+#include "ao/prepare.h"
+
+namespace obscura::ao {
+
+class Library {
+public:
+    Library(gpu::Device& device, const gpu::ShaderLibrary& shaders);
+    ~Library();
+
+    // Makes the pipelines of one method, or of all (so that switching never hitches). False if any failed; logged.
+    bool prepare(const MethodInfo& info);
+    bool prepareAll();
+
+    // Adds prepare and method passes; returns visibility, R16F, visible size. Values name the method.
+    graph::ImageId add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values);
+    void reset();  // camera cut: histories are void
+
+private:
+    gpu::Device& m_device;
+    const gpu::ShaderLibrary& m_shaders;
+    Prepare m_prepare;
+    std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
+    const MethodInfo* m_last = nullptr;
+};
+
+}  // namespace obscura::ao

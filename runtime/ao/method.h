@@ -1,0 +1,64 @@
+// What a method is to the library: a table (MethodInfo) and an object that adds its passes to a graph. To write one, read
+// methods/hbao.cpp, add a file beside it, a folder of shaders and one line in registry.cpp.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "graph/graph.h"
+#include "obscura/ao.h"
+#include "shared/falloff.h"
+#include "shared/view.h"
+
+namespace obscura::ao {
+
+// What prepare() hands to every method.
+struct Inputs {
+    shared::View view;
+    graph::BufferId viewBlock;   // View as a uniform buffer
+    graph::ImageId depth;        // R32F, view.size: linear depth, sky at view.skyDepth
+    graph::ImageId normals;      // R32UI, view.size: geometric eye-space normals, packNormal()
+    graph::ImageId motion;       // RG16F, view.size, optional: pixels from this frame's position to last frame's (previous = here + motion)
+    shared::FalloffBlock falloff;
+    Falloff falloffDesc;
+};
+
+// Values of a method's parameters, in the order of its table.
+class Values {
+public:
+    explicit Values(const MethodInfo& info);                     // initial values
+    bool apply(const Preset& preset);
+    bool set(const char* id, float value);                       // clamped; false: unknown id
+    float operator[](const char* id) const;                      // asserts that it exists
+    uint32_t count(const char* id) const { return uint32_t((*this)[id] + 0.5f); }
+    const MethodInfo& info() const { return *m_info; }
+    std::span<const float> values() const { return m_values; }
+    bool operator==(const Values&) const = default;
+
+private:
+    const MethodInfo* m_info;
+    std::vector<float> m_values;
+};
+
+class Method {
+public:
+    virtual ~Method() = default;
+    // Adds passes; returns visibility, R16F, view.visible in size. Called every frame.
+    virtual graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) = 0;
+    // Histories, if any, are void after this: camera cut, method switch.
+    virtual void reset() {}
+};
+
+struct MethodEntry {
+    const MethodInfo* info;
+    // Null, with a log line, when a pipeline cannot be made.
+    std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders);
+};
+std::span<const MethodEntry> registry();
+
+std::span<const gpu::EmbeddedShader> shaders();  // this room's, for ShaderLibrary::add
+
+shared::FalloffBlock falloffBlock(const Falloff& falloff);
+
+}  // namespace obscura::ao

@@ -1,0 +1,31 @@
+// Turns whatever a host or the sample has into what every method reads: linear depth and packed eye-space normals.
+#pragma once
+
+#include "ao/method.h"
+
+namespace obscura::ao {
+
+// The frame's images as they stand in the graph; formats and encodings are said by the Frame beside them.
+struct Sources {
+    graph::ImageId depth;
+    graph::ImageId normals;  // none: reconstructed from depth
+    graph::ImageId motion;   // none: no motion; RG16F as in Inputs
+};
+
+// The view that a frame's size, guard band and projection describe. The depth convention (standard, reversed, infinite,
+// orthographic, off-centre, flipped y) is read off the matrix. Status::invalid with a reason when it is no projection.
+Status viewOf(const Frame& frame, shared::View& view, const char*& reason);
+
+class Prepare {
+public:
+    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Prepare& out);
+    // Depth that is linear R32F already, and normals that are packed eye-space ones already, pass through without a copy.
+    Inputs add(graph::Graph& graph, const Frame& frame, const shared::View& view, const Sources& sources, const Falloff& falloff);
+
+private:
+    gpu::Program m_linearize;
+    gpu::Program m_packNormals;
+    gpu::Program m_reconstruct;
+};
+
+}  // namespace obscura::ao

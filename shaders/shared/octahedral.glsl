@@ -1,0 +1,20 @@
+// Unit vectors in 32 bits: octahedral map, two signed 16-bit components [Cigolle 2014, A Survey of Efficient
+// Representations for Independent Unit Vectors]. The largest error is about 0.004 degrees.
+#ifndef OBSCURA_OCTAHEDRAL_GLSL
+#define OBSCURA_OCTAHEDRAL_GLSL
+
+uint packNormal(vec3 n) {
+    n /= abs(n.x) + abs(n.y) + abs(n.z);
+    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    return packSnorm2x16(n.z >= 0.0 ? n.xy : folded);
+}
+
+vec3 unpackNormal(uint bits) {
+    vec2 e = unpackSnorm2x16(bits);
+    vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
+    float t = max(-n.z, 0.0);
+    n.xy -= vec2(n.x >= 0.0 ? t : -t, n.y >= 0.0 ? t : -t);
+    return normalize(n);
+}
+
+#endif

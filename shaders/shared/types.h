@@ -1,0 +1,26 @@
+// Lets one header declare a struct for C++ and for GLSL. In C++ the GLSL names become plain data of the same size; blocks
+// are laid out by std430/std140 rules, so keep members in 16-byte groups (every struct asserts its size).
+#ifndef OBSCURA_SHARED_TYPES_H
+#define OBSCURA_SHARED_TYPES_H
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace obscura::shared {
+using uint = uint32_t;
+struct vec2 { float x, y; };
+struct vec4 { float x, y, z, w; };
+struct uvec2 { uint32_t x, y; };
+struct uvec4 { uint32_t x, y, z, w; };
+struct ivec2 { int32_t x, y; };
+struct mat4 { float m[16]; };  // columns
+}  // namespace obscura::shared
+#define OBSCURA_SHARED_BEGIN namespace obscura::shared {
+#define OBSCURA_SHARED_END }
+#define OBSCURA_SHARED_SIZE(type, bytes) static_assert(sizeof(type) == bytes, #type)
+#else
+#define OBSCURA_SHARED_BEGIN
+#define OBSCURA_SHARED_END
+#define OBSCURA_SHARED_SIZE(type, bytes)
+#endif
+
+#endif

@@ -1,0 +1,40 @@
+// The picture every obscurance method works in. Pixels count over the whole buffers, guard band included, from the upper
+// left; eye space is right-handed, camera at the origin looking down -z, y up, metres. Linear depth is -z.
+#ifndef OBSCURA_SHARED_VIEW_H
+#define OBSCURA_SHARED_VIEW_H
+#include "types.h"
+OBSCURA_SHARED_BEGIN
+
+struct View {
+    uvec2 size;          // of the buffers, px
+    uvec2 visible;       // of the part that is shown, px
+    uvec2 guard;         // where the visible part begins, px
+    float pixelsPerMetre;  // of an upright length at linear depth 1 m (perspective) or at any depth (orthographic)
+    float orthographic;  // 1 or 0
+    vec4 unproject;      // eye.xy = (pixelCentre * unproject.xy + unproject.zw) * (orthographic ? 1 : depth)
+    vec4 project;        // pixelCentre = eye.xy / (orthographic ? 1 : depth) * project.xy + project.zw
+    vec4 linearize;      // linear depth = (d * x + y) / (d * z + w), d the device depth in [0,1]
+    uint frame;          // counts up; drives per-frame sample rotation
+    uint temporal;       // 1: samples may rotate over frames, history takes the noise out
+    float skyDepth;      // linear depth at or beyond which a pixel is sky
+    uint unused;
+};
+OBSCURA_SHARED_SIZE(View, 96);
+
+OBSCURA_SHARED_END
+
+#ifndef __cplusplus
+vec3 eyePosition(View view, vec2 pixelCentre, float depth) {
+    vec2 xy = pixelCentre * view.unproject.xy + view.unproject.zw;
+    return vec3(view.orthographic > 0.5 ? xy : xy * depth, -depth);
+}
+vec2 pixelOf(View view, vec3 eye) {
+    vec2 xy = view.orthographic > 0.5 ? eye.xy : eye.xy / -eye.z;
+    return xy * view.project.xy + view.project.zw;
+}
+// Unit vector from an eye-space point towards the camera.
+vec3 towardsEye(View view, vec3 eye) { return view.orthographic > 0.5 ? vec3(0, 0, 1) : normalize(-eye); }
+bool isSky(View view, float depth) { return depth >= view.skyDepth; }
+#endif
+
+#endif
