@@ -1,0 +1,86 @@
+// The sample's renderer: from a World and a Camera to a picture, as passes of a render graph. Owns the GPU copies of
+// models and whatever outlives a frame; changes nothing it is given.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ao/library.h"
+#include "graph/graph.h"
+#include "scene/camera.h"
+#include "scene/world.h"
+
+namespace obscura::render {
+
+enum class View : uint8_t {
+    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, pass
+};
+// "final", "visibility", ... and "pass:NAME" (what the graph's pass NAME wrote); false when unknown.
+bool parseView(const std::string& text, View& view, std::string& pass);
+const char* name(View view);
+inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
+                                  View::baseColor, View::roughness, View::metalness, View::emission};
+
+struct Sun {
+    glm::vec3 direction{0.35f, -1.0f, 0.25f};  // the way light travels, world; any length
+    glm::vec3 radiance{6.0f, 5.6f, 4.9f};      // linear, times pi over the horizon
+    glm::vec3 sky{0.9f, 1.05f, 1.25f};         // ambient radiance from above
+    glm::vec3 ground{0.45f, 0.40f, 0.34f};     // and from below
+};
+
+struct FrameOptions {
+    VkExtent2D visible{1280, 720};    // px
+    float guard = 0.1f;               // fraction of each side, 0 to 0.5
+    scene::Camera camera;
+    float time = 0.0f;                // seconds, of the world's animations
+    const ao::Values* method = nullptr;  // names the method; never null
+    ao::Falloff falloff;
+    View view = View::final;
+    std::string passView;             // for View::pass
+    Sun sun;
+    float exposure = 1.0f;
+    bool cut = false;                 // first frame after a jump: histories and motion are void
+    bool skipMasked = false;          // leave alpha-masked primitives out (stored references do)
+};
+
+struct Outputs {
+    graph::ImageId color;       // what `view` asks for, R8G8B8A8_UNORM holding sRGB-encoded values, visible size
+    graph::ImageId visibility;  // R16F, visible size, of the method
+    // Guard band included:
+    graph::ImageId depth;           // D32, reversed infinite device depth
+    graph::ImageId linearDepth;     // R32F, -z in metres, ao's sky value where nothing is
+    graph::ImageId normals;         // R32UI, packNormal(): geometric, eye space
+    graph::ImageId motion;          // RG16F, px to last frame's position
+};
+
+struct SceneFacts {
+    size_t triangles = 0, drawn = 0, instances = 0, draws = 0;  // drawn: after culling
+    uint64_t textureBytes = 0, geometryBytes = 0;
+};
+
+class Renderer {
+public:
+    // Null, with a log line, when something required cannot be made.
+    static std::unique_ptr<Renderer> create(gpu::Device& device, const gpu::ShaderLibrary& shaders);
+    ~Renderer();
+
+    // Uploads the models of a world that are not on the GPU yet and drops those no longer used. add() does so as well;
+    // call it first where a hitch would show. Progress is told as done/total models.
+    gpu::Status load(const scene::World& world);
+
+    // Adds the frame's passes. Remembers poses and camera for the next frame's motion vectors.
+    Outputs add(graph::Graph& graph, const scene::World& world, const FrameOptions& options);
+
+    ao::Library& library();
+    SceneFacts facts() const;  // of the last add()
+
+private:
+    Renderer();
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+std::span<const gpu::EmbeddedShader> shaders();
+
+}  // namespace obscura::render
