@@ -1,0 +1,77 @@
+// Who may include whom: the house's rule, held by reading every include of every room.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kRoot = OBSCURA_SOURCE_DIR;
+
+const std::map<std::string, std::set<std::string>> kMayInclude = {
+    {"gpu", {}},
+    {"graph", {"gpu"}},
+    {"ao", {"graph", "gpu"}},
+    {"scene", {}},
+    {"voxel", {"scene"}},
+    {"truth", {"scene", "gpu", "graph", "ao"}},  // the screen reference is a graph pass; the falloff is ao's type
+    {"render", {"graph", "gpu", "ao", "scene", "voxel"}},
+    {"app", {"gpu", "graph", "ao", "scene", "render"}},
+};
+
+const std::set<std::string> kForbiddenInLibrary = {"GLFW", "imgui", "tiny_gltf", "tinygltf", "openvdb", "embree"};
+
+std::vector<std::pair<fs::path, std::string>> includes(const fs::path& folder) {
+    std::vector<std::pair<fs::path, std::string>> result;
+    static const std::regex kInclude("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".h" && extension != ".cpp") continue;
+        std::ifstream in(entry.path());
+        std::smatch match;
+        for (std::string line; std::getline(in, line);)
+            if (std::regex_search(line, match, kInclude)) result.push_back({entry.path(), match[1]});
+    }
+    return result;
+}
+
+TEST(Rooms, includeOnlyTheRoomsTheyMay) {
+    size_t seen = 0;
+    for (const auto& [room, allowed] : kMayInclude) {
+        if (!fs::exists(kRoot / "runtime" / room)) continue;
+        for (const auto& [file, header] : includes(kRoot / "runtime" / room)) {
+            const std::string first = header.substr(0, header.find('/'));
+            ++seen;
+            if (first == room || !kMayInclude.count(first) || header.find('/') == std::string::npos) continue;
+            EXPECT_TRUE(allowed.count(first)) << fs::relative(file, kRoot) << " includes " << header;
+        }
+    }
+    EXPECT_GT(seen, 50u);
+}
+
+TEST(Rooms, theLibraryNeverSeesWindowsOrFiles) {
+    for (const char* room : {"gpu", "graph", "ao"})
+        for (const auto& [file, header] : includes(kRoot / "runtime" / room))
+            for (const std::string& word : kForbiddenInLibrary)
+                EXPECT_EQ(header.find(word), std::string::npos) << fs::relative(file, kRoot) << " includes " << header;
+}
+
+TEST(Rooms, thePublicHeaderNeedsOnlyVulkan) {
+    for (const auto& [file, header] : includes(kRoot / "runtime/ao/include"))
+        EXPECT_TRUE(header == "cstddef" || header == "cstdint" || header == "vulkan/vulkan_core.h") << header;
+}
+
+TEST(Rooms, topLevelHoldsWhatWasAgreed) {
+    const std::set<std::string> agreed = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "runtime", "game",
+                                          "shaders", "content", "tests", "tools", "build", "out"};
+    for (const auto& entry : fs::directory_iterator(kRoot)) {
+        const std::string name = entry.path().filename().string();
+        if (name[0] != '.') EXPECT_TRUE(agreed.count(name)) << name;
+    }
+}
+
+}  // namespace
