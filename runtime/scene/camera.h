@@ -20,7 +20,8 @@ struct Camera {
 
     glm::mat4 view() const;  // world -> eye
     // Eye -> clip, Vulkan: y down, depth reversed (1 near, 0 at infinity). `size` is the whole image in pixels, guard
-    // band included, `visible` the part that fovY spans.
+    // band included, `visible` the part that fovY spans. Orthographic cameras end at 1e4 times the near distance, where
+    // their depth, linear there, reaches 0.
     glm::mat4 projection(glm::vec2 size, glm::vec2 visible) const;
 };
 
@@ -47,7 +48,8 @@ public:
     std::string scene;
     float duration = 0.0f;
     bool loop = true;
-    std::vector<Key> keys;  // times strictly increasing, at least one
+    std::vector<Key> keys;  // times strictly increasing, at least one; a loop returns to the first at its time + duration
+    std::string events;     // the JSON array as it stood in the file, empty when there was none; kept for `save`
 
     Camera at(float time) const;
     void save(const std::filesystem::path& file) const;  // temporary name, then rename

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
 #include "scene/model.h"
@@ -24,5 +25,9 @@ struct LoadOptions {
 
 // Throws Error. Never reads outside the file's folder.
 std::shared_ptr<const Model> loadGltf(const std::filesystem::path& file, const LoadOptions& options = {});
+
+// The same from memory, either container. `name` stands for the file in errors. Data URIs and the BIN chunk are read,
+// anything that refers to a file is refused.
+std::shared_ptr<const Model> loadGltfMemory(std::span<const uint8_t> bytes, const std::string& name, const LoadOptions& options = {});
 
 }  // namespace obscura::scene

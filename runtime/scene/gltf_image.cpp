@@ -1,0 +1,73 @@
+// PNG and JPEG to RGBA8, in parallel: images are independent, each result has its own place, so the order in which
+// threads finish cannot show.
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include <fmt/format.h>
+#include <stb_image.h>
+#include <tiny_gltf.h>
+
+#include "scene/gltf_parts.h"
+
+namespace obscura::scene::gltf {
+namespace {
+
+constexpr int kWidest = 16384;  // pixels; what graphics devices take at most
+
+Image white(const std::string& name, bool srgb) { return {name, 1, 1, srgb, {255, 255, 255, 255}}; }
+
+}  // namespace
+
+std::vector<Image> decodeImages(Context& context, const Asset& asset, const std::vector<ImageUse>& uses, bool withImages) {
+    std::vector<Image> images;
+    std::vector<size_t> decodes;  // uses that decode; a second use of a source copies
+    for (size_t i = 0; i < uses.size(); ++i) {
+        const auto& source = asset.gltf->images[size_t(uses[i].source)];
+        images.push_back(white(source.name, uses[i].srgb));
+        if (!withImages) continue;
+        const std::string pointer = fmt::format("/images/{}", uses[i].source);
+        int width = 0, height = 0, channels = 0;
+        if (source.image.size() > size_t(INT32_MAX) ||
+            !stbi_info_from_memory(source.image.data(), int(source.image.size()), &width, &height, &channels))
+            context.fail(pointer, "is no PNG or JPEG that can be read; save the image again");
+        if (width < 1 || height < 1 || width > kWidest || height > kWidest)
+            context.fail(pointer, fmt::format("is {} x {} pixels, at most {} x {} are taken", width, height, kWidest, kWidest));
+        // stb_image inflates a PNG into a buffer of its own beside the result, with 16 bits twice as much.
+        context.spend(uint64_t(width) * uint64_t(height) * 4, pointer);
+        images[i].width = uint32_t(width);
+        images[i].height = uint32_t(height);
+        const auto same = std::find_if(uses.begin(), uses.begin() + ptrdiff_t(i), [&](const ImageUse& u) { return u.source == uses[i].source; });
+        if (same == uses.begin() + ptrdiff_t(i)) decodes.push_back(i);
+    }
+
+    std::vector<std::string> faults(uses.size());
+    std::atomic<size_t> next{0};
+    const auto work = [&] {
+        for (size_t k = next++; k < decodes.size(); k = next++) {
+            const size_t i = decodes[k];
+            const auto& bytes = asset.gltf->images[size_t(uses[i].source)].image;
+            int width = 0, height = 0, channels = 0;
+            uint8_t* pixels = stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4);
+            if (pixels == nullptr || uint32_t(width) != images[i].width || uint32_t(height) != images[i].height)
+                faults[i] = fmt::format("cannot be decoded ({}); save the image again", stbi_failure_reason() ? stbi_failure_reason() : "damaged");
+            else
+                images[i].rgba.assign(pixels, pixels + size_t(width) * size_t(height) * 4);
+            stbi_image_free(pixels);
+        }
+    };
+    std::vector<std::thread> threads;
+    const size_t count = std::min<size_t>(decodes.size(), std::max(1u, std::thread::hardware_concurrency()));
+    for (size_t i = 1; i < count; ++i) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+
+    for (const size_t i : decodes)
+        if (!faults[i].empty()) context.fail(fmt::format("/images/{}", uses[i].source), faults[i]);
+    for (size_t i = 0; withImages && i < uses.size(); ++i)
+        for (size_t k = 0; k < i && images[i].rgba.size() <= 4; ++k)
+            if (uses[k].source == uses[i].source) images[i].rgba = images[k].rgba;
+    return images;
+}
+
+}  // namespace obscura::scene::gltf

@@ -1,0 +1,127 @@
+// Materials, textures and samplers. An image used both as colour and as data appears twice, once as sRGB.
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include "scene/gltf_parts.h"
+
+namespace obscura::scene::gltf {
+namespace {
+
+Wrap wrapOf(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
+    if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirror;
+    return Wrap::repeat;
+}
+
+Sampler samplerOf(const tinygltf::Sampler& from) {
+    Sampler sampler;
+    sampler.wrapU = wrapOf(from.wrapS);
+    sampler.wrapV = wrapOf(from.wrapT);
+    sampler.linearMag = from.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
+    sampler.linearMin = from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST &&
+                        from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+    sampler.mipmaps = from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && from.minFilter != TINYGLTF_TEXTURE_FILTER_LINEAR;
+    return sampler;
+}
+
+float numberOf(const tinygltf::Value& object, const char* key, size_t element, float otherwise) {
+    if (!object.IsObject() || !object.Has(key)) return otherwise;
+    const tinygltf::Value& value = object.Get(key);
+    if (value.IsNumber()) return float(value.GetNumberAsDouble());
+    if (value.IsArray() && element < value.ArrayLen()) return float(value.Get(element).GetNumberAsDouble());
+    return otherwise;
+}
+
+// Collects the textures materials use, in order of first use.
+class Looks {
+public:
+    Looks(Context& context, const Asset& asset, Model& model) : m_context(context), m_asset(asset), m_model(model) {}
+
+    template <class Info>
+    TextureUse use(const Info& info, bool srgb, const std::string& pointer) {
+        TextureUse use;
+        if (info.index < 0) return use;
+        use.texCoord = info.texCoord;
+        if (const auto it = info.extensions.find(kTransform); it != info.extensions.end()) {
+            const tinygltf::Value& t = it->second;
+            use.offset = {numberOf(t, "offset", 0, 0), numberOf(t, "offset", 1, 0)};
+            use.scale = {numberOf(t, "scale", 0, 1), numberOf(t, "scale", 1, 1)};
+            use.rotation = numberOf(t, "rotation", 0, 0);
+            use.texCoord = int(numberOf(t, "texCoord", 0, float(use.texCoord)));
+        }
+        if (use.texCoord > 1) {
+            m_context.warn(pointer, fmt::format("texture coordinate set {} is not supported, the texture is left out", use.texCoord));
+            return {};
+        }
+        use.texture = texture(info.index, srgb, pointer);
+        return use;
+    }
+
+    std::vector<ImageUse> images;
+
+private:
+    int texture(int index, bool srgb, const std::string& pointer) {
+        const auto [it, isNew] = m_textures.try_emplace({index, srgb}, -1);
+        if (!isNew) return it->second;
+        const tinygltf::Texture& from = m_asset.gltf->textures[size_t(index)];
+        if (from.source < 0) {
+            m_context.warn(pointer, fmt::format("texture {} has no image in a supported format, it is left out", index));
+            return -1;
+        }
+        for (const auto& extension : from.extensions)
+            m_context.warn(pointer, fmt::format("texture {} uses its PNG or JPEG instead of {}", index, extension.first));
+        const auto [image, isNewImage] = m_images.try_emplace({from.source, srgb}, int(images.size()));
+        if (isNewImage) images.push_back({from.source, srgb});
+        Texture texture;
+        texture.image = image->second;
+        if (from.sampler >= 0) texture.sampler = samplerOf(m_asset.gltf->samplers[size_t(from.sampler)]);
+        it->second = int(m_model.textures.size());
+        m_model.textures.push_back(texture);
+        return it->second;
+    }
+
+    Context& m_context;
+    const Asset& m_asset;
+    Model& m_model;
+    std::map<std::pair<int, bool>, int> m_textures, m_images;
+};
+
+Material materialOf(const tinygltf::Material& from, Looks& looks, const std::string& pointer) {
+    Material material;
+    material.name = from.name;
+    const auto& pbr = from.pbrMetallicRoughness;
+    for (int i = 0; i < 4; ++i) material.baseColor[i] = float(pbr.baseColorFactor[size_t(i)]);
+    material.metallic = float(pbr.metallicFactor);
+    material.roughness = float(pbr.roughnessFactor);
+    float strength = 1.0f;
+    if (const auto it = from.extensions.find(kEmissiveStrength); it != from.extensions.end())
+        strength = numberOf(it->second, "emissiveStrength", 0, 1.0f);
+    for (int i = 0; i < 3; ++i) material.emission[i] = strength * float(from.emissiveFactor[size_t(i)]);
+    material.normalScale = float(from.normalTexture.scale);
+    material.occlusionStrength = float(from.occlusionTexture.strength);
+    material.alphaCutoff = float(from.alphaCutoff);
+    material.alphaMode = from.alphaMode == "MASK" ? AlphaMode::mask : from.alphaMode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+    material.doubleSided = from.doubleSided;
+    material.unlit = from.extensions.count(kUnlit) != 0;
+    const std::string inner = pointer + "/pbrMetallicRoughness";
+    material.baseColorTexture = looks.use(pbr.baseColorTexture, true, inner + "/baseColorTexture");
+    material.metallicRoughnessTexture = looks.use(pbr.metallicRoughnessTexture, false, inner + "/metallicRoughnessTexture");
+    material.normalTexture = looks.use(from.normalTexture, false, pointer + "/normalTexture");
+    material.emissionTexture = looks.use(from.emissiveTexture, true, pointer + "/emissiveTexture");
+    material.occlusionTexture = looks.use(from.occlusionTexture, false, pointer + "/occlusionTexture");
+    return material;
+}
+
+}  // namespace
+
+void addMaterials(Context& context, const Asset& asset, bool withImages, Model& model) {
+    Looks looks(context, asset, model);
+    for (size_t i = 0; i < asset.gltf->materials.size(); ++i)
+        model.materials.push_back(materialOf(asset.gltf->materials[i], looks, fmt::format("/materials/{}", i)));
+    model.images = decodeImages(context, asset, looks.images, withImages);
+}
+
+}  // namespace obscura::scene::gltf

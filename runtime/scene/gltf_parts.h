@@ -1,0 +1,123 @@
+// The stages of the glTF loader, private to this folder. They run in this order, each on what the one before left:
+// container (bytes -> JSON) -> check (structure) -> files (buffers and images' bytes) -> parse (tinygltf) -> compress
+// (meshopt views) -> images, materials, meshes, nodes, animations. After `check` every index in the file is in range.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/gltf.h"
+
+namespace tinygltf {
+class Model;
+struct Primitive;
+}  // namespace tinygltf
+
+namespace obscura::scene::gltf {
+
+using Bytes = std::vector<uint8_t>;
+
+inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
+inline constexpr const char* kMeshopt = "EXT_meshopt_compression";
+inline constexpr const char* kTransform = "KHR_texture_transform";
+inline constexpr const char* kUnlit = "KHR_materials_unlit";
+inline constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
+inline constexpr const char* kQuantization = "KHR_mesh_quantization";
+
+// What every stage needs: whose fault it is, how much may still be allocated, where warnings go.
+struct Context {
+    std::string file;              // as errors show it
+    std::filesystem::path folder;  // canonical; empty: files beside the model are refused
+    size_t budget = 0;             // bytes that may still be decoded
+    uint64_t hash = 14695981039346656037ull;
+    std::vector<std::string> warnings;
+
+    [[noreturn]] void fail(std::string_view pointer, std::string_view what) const;
+    void warn(std::string_view pointer, std::string_view what);
+    void spend(uint64_t bytes, std::string_view pointer);  // fails when the budget does not last
+    void addToHash(std::span<const uint8_t> bytes);
+};
+
+struct Document {
+    Document();
+    ~Document();
+    Document(Document&&) noexcept;
+    std::unique_ptr<nlohmann::json> json;
+    Bytes chunk;  // the binary container's BIN chunk
+    bool hasChunk = false;
+};
+
+// One tinygltf model whose buffer views have been resolved, decompressed where they were compressed.
+struct Asset {
+    Asset();
+    ~Asset();
+    Asset(Asset&&) noexcept;
+    std::unique_ptr<tinygltf::Model> gltf;
+    std::vector<std::span<const uint8_t>> views;  // per bufferView, into buffers or `unpacked`
+    std::vector<Bytes> unpacked;
+};
+
+// gltf_container.cpp
+Bytes readFile(const Context& context, const std::filesystem::path& file, std::string_view pointer, uint64_t limit);
+Document readDocument(Context& context, Bytes bytes);
+
+// gltf_check.cpp, gltf_check_looks.cpp, gltf_check_nodes.cpp
+void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk);
+void checkLooks(Context& context, const nlohmann::json& json);    // images, samplers, textures, materials
+void checkMeshes(Context& context, const nlohmann::json& json);   // primitives' references and counts
+void checkScenes(Context& context, const nlohmann::json& json);   // cameras, nodes, skins, scenes, animations
+int componentsOf(std::string_view type);                          // "VEC3" -> 3, 0 when unknown
+size_t bytesOf(int componentType);                                // 5126 -> 4, 0 when unknown
+size_t elementBytes(std::string_view type, int componentType);    // matrix columns padded to four bytes
+
+// gltf_files.cpp: the bytes behind each buffer and image, in order. Buffers come cut to their byteLength; a buffer that
+// only holds room for decompressed data is one byte. Images not in `wanted` are only looked for.
+std::vector<Bytes> readBuffers(Context& context, Document& document);
+std::vector<Bytes> readImages(Context& context, const nlohmann::json& json, const std::vector<bool>& wanted);
+
+// gltf_parse.cpp
+std::vector<bool> usedImages(const nlohmann::json& json);
+Asset parse(Context& context, Document& document, bool withImages);
+
+// gltf_compress.cpp
+struct DracoMesh {
+    std::vector<uint32_t> indices;
+    std::map<std::string, std::vector<float>> attributes;  // by glTF name; components as the accessor has them
+};
+void unpackViews(Context& context, Asset& asset);
+bool hasDraco(const tinygltf::Primitive& primitive);
+DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Primitive& primitive, const std::string& pointer);
+
+// gltf_access.cpp: accessors as flat arrays, count * components; integers normalized where the accessor says so.
+std::vector<float> readFloats(Context& context, const Asset& asset, int accessor);
+std::vector<uint32_t> readIntegers(Context& context, const Asset& asset, int accessor);
+
+// gltf_image.cpp, gltf_material.cpp: fill images, textures and materials.
+void addMaterials(Context& context, const Asset& asset, bool withImages, Model& model);
+struct ImageUse {
+    int source = -1;  // glTF image
+    bool srgb = false;
+};
+std::vector<Image> decodeImages(Context& context, const Asset& asset, const std::vector<ImageUse>& uses, bool withImages);
+
+// gltf_mesh.cpp
+void addMeshes(Context& context, const Asset& asset, Model& model);
+
+// mesh_finish.cpp: what the file left out.
+void addFlatNormals(Primitive& primitive);  // unshares all vertices
+void addTangents(Primitive& primitive, int texCoord);
+void addBounds(Primitive& primitive);
+
+// gltf_nodes.cpp, gltf_animation.cpp
+void addNodes(Context& context, const Asset& asset, int scene, Model& model);
+void addAnimations(Context& context, const Asset& asset, Model& model);
+
+}  // namespace obscura::scene::gltf

@@ -1,0 +1,29 @@
+#include "scene/json_file.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace obscura::scene {
+
+JsonFile::JsonFile(const std::filesystem::path& file) : m_name(file.string()) {
+    constexpr uintmax_t kLargest = 16u << 20;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) throw Error(errorLine(m_name, "", "is missing or not a file"));
+    if (std::filesystem::file_size(file, error) > kLargest) throw Error(errorLine(m_name, "", "is larger than 16 MiB"));
+    std::ifstream in(file, std::ios::binary);
+    try {
+        m_json = nlohmann::json::parse(in);
+    } catch (const nlohmann::json::exception& exception) {
+        std::string_view what = exception.what();
+        if (const size_t end = what.find("] "); end != what.npos) what.remove_prefix(end + 2);
+        throw Error(errorLine(m_name, "", fmt::format("is not valid JSON: {}", what)));
+    }
+}
+
+glm::vec3 vector3(const JsonAt& at) {
+    at.expectNumbers(3);
+    return {at.at(size_t(0)).number(), at.at(1).number(), at.at(2).number()};
+}
+
+}  // namespace obscura::scene

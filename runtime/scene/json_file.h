@@ -1,0 +1,24 @@
+// The small JSON files of this project: read whole, errors name the file.
+#pragma once
+
+#include <filesystem>
+
+#include <glm/glm.hpp>
+
+#include "scene/json_at.h"
+
+namespace obscura::scene {
+
+class JsonFile {
+public:
+    explicit JsonFile(const std::filesystem::path& file);  // throws Error
+    JsonAt root() const { return JsonAt(m_name, m_json); }
+
+private:
+    std::string m_name;
+    nlohmann::json m_json;
+};
+
+glm::vec3 vector3(const JsonAt& at);
+
+}  // namespace obscura::scene
