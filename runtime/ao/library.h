@@ -19,8 +19,10 @@ public:
     bool prepare(const MethodInfo& info);
     bool prepareAll();
 
-    // Adds prepare and method passes; returns visibility, R16F, visible size. Values name the method.
-    graph::ImageId add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values);
+    // Adds prepare and method passes; returns visibility, R16F, visible size; none, logged, when the frame makes no sense or
+    // a pipeline cannot be made. Values name the method. `inputs`, when given, receives what prepare made (linear depth).
+    graph::ImageId add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values,
+                       Inputs* inputs = nullptr);
     void reset();  // camera cut: histories are void
 
 private:
@@ -29,6 +31,7 @@ private:
     Prepare m_prepare;
     std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
     const MethodInfo* m_last = nullptr;
+    bool m_ready = false;
 };
 
 }  // namespace obscura::ao

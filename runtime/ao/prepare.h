@@ -10,21 +10,25 @@ struct Sources {
     graph::ImageId depth;
     graph::ImageId normals;  // none: reconstructed from depth
     graph::ImageId motion;   // none: no motion; RG16F as in Inputs
+    bool direct = false;     // depth and normals have the form of Inputs already and may be storage images: taken as they are
 };
 
 // The view that a frame's size, guard band and projection describe. The depth convention (standard, reversed, infinite,
 // orthographic, off-centre, flipped y) is read off the matrix. Status::invalid with a reason when it is no projection.
 Status viewOf(const Frame& frame, shared::View& view, const char*& reason);
 
+// Linear depth of sky in Inputs::depth; view.skyDepth is at most this.
+inline constexpr float kSkyDepth = 1.0e8f;
+
 class Prepare {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Prepare& out);
-    // Depth that is linear R32F already, and normals that are packed eye-space ones already, pass through without a copy.
     Inputs add(graph::Graph& graph, const Frame& frame, const shared::View& view, const Sources& sources, const Falloff& falloff);
 
 private:
     gpu::Program m_linearize;
     gpu::Program m_packNormals;
+    gpu::Program m_repackNormals;
     gpu::Program m_reconstruct;
 };
 

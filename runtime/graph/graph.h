@@ -148,6 +148,7 @@ public:
     const Timings& timings() const { return m_timings; }   // of the newest frame whose timestamps have arrived
     const gpu::ImageDesc& desc(ImageId id) const;
     const std::string& name(ImageId id) const;
+    bool isTransient(ImageId id) const { return m_recording.resources[id.index].kind == Kind::transient; }
     // What each pass of this frame's recording writes, for "view any pass": valid between begin and execute.
     struct Written { std::string pass; ImageId image; };
     std::vector<Written> written() const;

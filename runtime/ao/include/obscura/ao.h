@@ -131,6 +131,7 @@ struct Frame {
     ImageView normals;                   // optional: geometric normals, sampled usage
     NormalKind normalKind = NormalKind::eye;
     NormalEncoding normalEncoding = NormalEncoding::signedFloat;
+    float skyDepth = 0.0f;               // linear depths from here on are sky; 0: what the projection's far plane says
     uint64_t index = 0;                  // counts frames
 };
 
@@ -145,7 +146,7 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame);
 uint64_t memoryUse(const Context* context);  // bytes of device memory held
 
 struct PassTime { const char* name; double milliseconds; };
-List<PassTime> timings(const Context* context);  // of the newest finished frame; valid until the next record()
+List<PassTime> timings(Context* context);  // of the newest finished frame; valid until the next record()
 
 }  // namespace obscura::ao
 

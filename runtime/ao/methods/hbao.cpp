@@ -1,0 +1,68 @@
+// Horizon-based ambient occlusion [Bavoil 2008, Image-Space Horizon-Based Ambient Occlusion]. For each of N directions on
+// the screen the horizon angle is raised sample by sample; what it gains counts with the falloff at that sample:
+//     A = 1/N sum over directions, sum over samples that raise the horizon of rho(|S-P|) (sin h - sin h_before)
+// starting at the tangent plane plus a bias. Two changes to the paper: the falloff is the shared type, and the tangent is
+// where the neighbouring view ray meets the tangent plane, which is right under perspective.
+//
+// Reads linear depth and normals, guard band included; writes visibility of the visible part; then the shared denoiser.
+#include "ao/resolve.h"
+
+namespace obscura::ao {
+namespace {
+
+struct Constants {
+    shared::FalloffBlock falloff;
+    uint32_t directions;
+    uint32_t steps;
+    float bias;       // radians
+    float maxPixels;  // reach on the screen, px
+};
+
+const Parameter kParameters[] = {
+    {"directions", "", 1, 32, 16, true, {}, "Directions on the screen; cost grows with directions x steps."},
+    {"steps", "", 1, 32, 8, true, {}, "Samples along each direction, out to the falloff's reach."},
+    {"bias", "deg", 0, 60, 10, false, {}, "Angle above the tangent plane that is ignored; hides faceting, loses shallow creases."},
+    {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
+    {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
+};
+const Setting kFast[] = {{"directions", 8}, {"steps", 4}};
+const Preset kPresets[] = {
+    {"default", "16 directions x 8 steps, as in the paper.", {}},
+    {"8x4", "A quarter of the samples.", {kFast, 2}},
+};
+const MethodInfo kInfo{"hbao",
+                       "Horizon-based ambient occlusion",
+                       "Bavoil, Sainz, Dimitrov: Image-Space Horizon-Based Ambient Occlusion, SIGGRAPH Talks 2008",
+                       "Raises a horizon along directions on the screen. The yardstick of the papers.",
+                       kDepth | kNormals,
+                       {kParameters, std::size(kParameters)},
+                       {kPresets, std::size(kPresets)}};
+
+class Hbao final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<Hbao>();
+        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp", {}, result->m_horizons) != gpu::Status::ok) return nullptr;
+        if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
+        return result;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        const Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), values["bias"] * 0.017453293f, values["max_pixels"]};
+        const auto& visible = inputs.view.visible;
+        const graph::ImageId visibility = graph.image("hbao.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
+        graph.pass("hbao.horizons", m_horizons).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility)
+            .constants(constants).dispatch(visible.x, visible.y);
+        return values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "hbao.denoise") : visibility;
+    }
+
+private:
+    gpu::Program m_horizons;
+    Denoise m_denoise;
+};
+
+}  // namespace
+
+MethodEntry hbaoEntry() { return {&kInfo, &Hbao::create}; }
+
+}  // namespace obscura::ao

@@ -1,0 +1,66 @@
+#include "ao/prepare.h"
+
+#include <cstring>
+
+namespace obscura::ao {
+namespace {
+
+struct NormalConstants {
+    float rows[3][4];   // eye from source, w unused
+    uint32_t encoding;  // NormalEncoding
+};
+
+NormalConstants normalConstants(const Frame& frame) {
+    NormalConstants result{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, uint32_t(frame.normalEncoding)};
+    if (frame.normalKind == NormalKind::world)
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column) result.rows[row][column] = frame.eyeFromWorld[column * 4 + row];
+    return result;
+}
+
+}  // namespace
+
+Status Prepare::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Prepare& out) {
+    const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/common/linearize.comp", &out.m_linearize},
+                                                                            {"ao/common/normals.comp", &out.m_packNormals},
+                                                                            {"ao/common/normals_packed.comp", &out.m_repackNormals},
+                                                                            {"ao/common/normals_reconstruct.comp", &out.m_reconstruct}};
+    for (const auto& [name, program] : programs)
+        if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return Status::shaderError;
+    return Status::ok;
+}
+
+Inputs Prepare::add(graph::Graph& graph, const Frame& frame, const shared::View& view, const Sources& sources, const Falloff& falloff) {
+    Inputs inputs;
+    inputs.view = view;
+    inputs.viewBlock = graph.upload("view", view);
+    inputs.falloffDesc = falloff;
+    inputs.falloff = falloffBlock(falloff);
+    inputs.motion = sources.motion;
+    if (sources.direct) {
+        inputs.depth = sources.depth;
+        inputs.normals = sources.normals;
+        return inputs;
+    }
+    inputs.depth = graph.image("linear depth", {VK_FORMAT_R32_SFLOAT, view.size.x, view.size.y});
+    const uint32_t linear = frame.depthKind == DepthKind::linear ? 1 : 0;
+    graph.pass("prepare.depth", m_linearize).read(inputs.viewBlock).read(sources.depth).write(inputs.depth).constants(linear)
+        .dispatch(view.size.x, view.size.y);
+
+    if (sources.normals && frame.normalEncoding == NormalEncoding::octahedral32 && frame.normalKind == NormalKind::eye &&
+        graph.isTransient(sources.normals)) {
+        inputs.normals = sources.normals;  // the sample's own G-buffer: packed already
+        return inputs;
+    }
+    inputs.normals = graph.image("packed normals", {VK_FORMAT_R32_UINT, view.size.x, view.size.y});
+    if (!sources.normals) {
+        graph.pass("prepare.normals", m_reconstruct).read(inputs.viewBlock).read(inputs.depth).write(inputs.normals).dispatch(view.size.x, view.size.y);
+    } else {
+        gpu::Program& program = frame.normalEncoding == NormalEncoding::octahedral32 ? m_repackNormals : m_packNormals;
+        graph.pass("prepare.normals", program).read(sources.normals).write(inputs.normals).constants(normalConstants(frame))
+            .dispatch(view.size.x, view.size.y);
+    }
+    return inputs;
+}
+
+}  // namespace obscura::ao

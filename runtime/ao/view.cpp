@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ao/prepare.h"
+
+namespace obscura::ao {
+
+// With D = -z the linear depth and P the projection (columns), perspective has w = -P[2][3] D and orthographic w = 1:
+//   x = D (ndc.x w' + P[2][0]) / P[0][0],  w' = -P[2][3]      D = P[3][2] / (P[2][2] + w' d)
+//   x = (ndc.x - P[3][0]) / P[0][0]                           D = (P[3][2] - d) / P[2][2]
+Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
+    const float* p = frame.projection;
+    const uint32_t width = frame.size.width, height = frame.size.height;
+    const auto fail = [&](const char* why) { reason = why; return Status::invalid; };
+    if (width == 0 || height == 0) return fail("Frame::size is zero");
+    if (2 * frame.guard.width >= width || 2 * frame.guard.height >= height) return fail("Frame::guard leaves nothing visible of Frame::size");
+    for (int i = 0; i < 16; ++i)
+        if (!std::isfinite(p[i])) return fail("Frame::projection holds a value that is not finite");
+    if (p[0] == 0.0f || p[5] == 0.0f) return fail("Frame::projection scales x or y to nothing");
+    const bool perspective = p[11] != 0.0f;
+    if (perspective && p[11] > 0.0f) return fail("Frame::projection looks down +z; eye space looks down -z");
+    if (!perspective && (p[15] == 0.0f || p[10] == 0.0f)) return fail("Frame::projection is neither perspective nor orthographic");
+
+    const float w = perspective ? -p[11] : p[15];
+    view = {};
+    view.size = {width, height};
+    view.guard = {frame.guard.width, frame.guard.height};
+    view.visible = {width - 2 * frame.guard.width, height - 2 * frame.guard.height};
+    view.orthographic = perspective ? 0.0f : 1.0f;
+    const float offsetX = perspective ? p[8] : -p[12];
+    const float offsetY = perspective ? p[9] : -p[13];
+    view.unproject = {2.0f * w / (float(width) * p[0]), 2.0f * w / (float(height) * p[5]), (offsetX - w) / p[0], (offsetY - w) / p[5]};
+    view.project = {1.0f / view.unproject.x, 1.0f / view.unproject.y, -view.unproject.z / view.unproject.x, -view.unproject.w / view.unproject.y};
+    view.pixelsPerMetre = std::fabs(view.project.y);
+    view.linearize = perspective ? shared::vec4{0.0f, p[14], w, p[10]} : shared::vec4{-w, p[14], 0.0f, p[10]};
+    if (frame.depthKind == DepthKind::device && perspective && p[14] == 0.0f) return fail("Frame::projection gives every depth the same value");
+
+    float farPlane = 0.0f;
+    for (const float d : {0.0f, 1.0f}) {
+        const float depth = (d * view.linearize.x + view.linearize.y) / (d * view.linearize.z + view.linearize.w);
+        farPlane = std::isfinite(depth) && depth > 0.0f ? std::max(farPlane, depth) : kSkyDepth;
+    }
+    view.skyDepth = std::min(kSkyDepth, frame.skyDepth > 0.0f ? frame.skyDepth : frame.depthKind == DepthKind::linear ? kSkyDepth : farPlane * 0.9999f);
+    view.frame = uint32_t(frame.index);
+    return Status::ok;
+}
+
+}  // namespace obscura::ao

@@ -1,0 +1,42 @@
+// 5x5 bilateral blur of visibility: Gaussian (6, 4, 1) x max(0, n.n') x 1/(1 + 200 plane distance / depth). The
+// plane distance is that of the neighbour from this pixel's tangent plane, so a slanted floor is not an edge.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View view; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
+layout(set = 0, binding = 4, r16f) uniform writeonly image2D result;
+
+const float kPlane = 200.0;  // per unit of plane distance over depth: 40 per metre at 5 m, at any world scale
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 guard = ivec2(view.guard);
+    float z = imageLoad(depth, p + guard).x;
+    if (isSky(view, z)) {
+        imageStore(result, p, vec4(1.0));
+        return;
+    }
+    vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
+    vec3 here = eyePosition(view, vec2(p + guard) + 0.5, z);
+    const float kernel[3] = {6.0, 4.0, 1.0};
+    float sum = 0.0, weights = 0.0;
+    for (int y = -2; y <= 2; ++y) {
+        for (int x = -2; x <= 2; ++x) {
+            ivec2 q = p + ivec2(x, y);
+            if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, ivec2(view.visible)))) continue;
+            float zq = imageLoad(depth, q + guard).x;
+            vec3 there = eyePosition(view, vec2(q + guard) + 0.5, zq);
+            float plane = abs(dot(there - here, n));
+            float w = kernel[abs(x)] * kernel[abs(y)] * max(0.0, dot(n, unpackNormal(imageLoad(normals, q + guard).x))) / (1.0 + kPlane * plane / z);
+            sum += w * imageLoad(source, q).x;
+            weights += w;
+        }
+    }
+    imageStore(result, p, vec4(weights > 0.0 ? sum / weights : imageLoad(source, p).x));
+}

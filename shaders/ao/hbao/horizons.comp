@@ -1,0 +1,86 @@
+// Horizon-based ambient occlusion [Bavoil 2008]: one invocation a visible pixel, directions x steps nearest-texel samples.
+// In: linear depth, packed normals (guard band included). Out: visibility, R16F. Formulas in runtime/ao/methods/hbao.cpp.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/falloff.h"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View view; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
+layout(push_constant) uniform Constants {
+    FalloffBlock rho;
+    uint directions;
+    uint steps;
+    float bias;       // radians
+    float maxPixels;
+};
+
+const float kTwoPi = 6.28318531;
+
+// Two permutations of 0..15 over a 4x4 tile: rotation and step offset, (i + 0.5) / 16.
+const float kRotation[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+const float kOffset[16] = float[](5, 13, 7, 15, 9, 1, 11, 3, 6, 14, 4, 12, 10, 2, 8, 0);
+
+// Sine of the elevation, above the plane across the view direction, of the tangent plane towards the next pixel: where
+// that pixel's view ray meets the plane.
+float tangentSine(vec3 here, vec3 n, vec3 v, vec2 pixel, vec2 direction) {
+    vec3 ahead = eyePosition(view, pixel + direction, -here.z);
+    vec3 t;
+    if (view.orthographic > 0.5) {
+        vec3 d = ahead - here;
+        t = d - vec3(0, 0, 1) * dot(n, d) / max(n.z, 1e-3);
+    } else {
+        float facing = dot(n, ahead);
+        t = abs(facing) > 1e-6 ? ahead * (dot(n, here) / facing) - here : ahead;
+        if (facing * dot(n, here) <= 0.0) t = -v;  // the ray never meets the plane: it falls away behind the horizon
+    }
+    return dot(t, v) * inversesqrt(max(dot(t, t), 1e-20));
+}
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 texel = p + ivec2(view.guard);
+    float z = imageLoad(depth, texel).x;
+    if (isSky(view, z)) {
+        imageStore(visibility, p, vec4(1.0));
+        return;
+    }
+    vec2 pixel = vec2(texel) + 0.5;
+    vec3 here = eyePosition(view, pixel, z);
+    vec3 n = unpackNormal(imageLoad(normals, texel).x);
+    vec3 v = towardsEye(view, here);
+    if (dot(n, v) < 0.0) n = -n;
+
+    float reach = min(rho.reach * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z), maxPixels);
+    int tile = (texel.y & 3) * 4 + (texel.x & 3);
+    float rotation = (kRotation[tile] + 0.5) / 16.0;
+    float offset = (kOffset[tile] + 0.5) / 16.0;
+    float stepPixels = max(reach / float(steps), 1.0);
+    ivec2 last = ivec2(view.size) - 1;
+
+    float blocked = 0.0;
+    for (uint k = 0u; k < directions; ++k) {
+        float angle = (float(k) + rotation) * kTwoPi / float(directions);
+        vec2 direction = vec2(cos(angle), sin(angle));
+        float tangent = tangentSine(here, n, v, pixel, direction);
+        // sin(t + bias)
+        float horizon = min(tangent * cos(bias) + sqrt(max(1.0 - tangent * tangent, 0.0)) * sin(bias), 1.0);
+        for (uint i = 0u; i < steps; ++i) {
+            ivec2 q = ivec2(floor(pixel + direction * max((float(i) + offset) * stepPixels, 1.0)));
+            if (any(lessThan(q, ivec2(0))) || any(greaterThan(q, last))) break;
+            vec3 d = eyePosition(view, vec2(q) + 0.5, imageLoad(depth, q).x) - here;
+            float distance2 = dot(d, d);
+            float inverse = inversesqrt(max(distance2, 1e-20));
+            float sine = dot(d, v) * inverse;
+            if (sine > horizon) {
+                blocked += falloff(rho, distance2 * inverse) * (sine - horizon);
+                horizon = sine;
+            }
+        }
+    }
+    imageStore(visibility, p, vec4(clamp(1.0 - blocked / float(directions), 0.0, 1.0)));
+}
