@@ -52,6 +52,7 @@ struct Caps {
     double timestampPeriod = 1.0;     // nanoseconds a tick
     uint64_t timestampMask = ~0ull;
     bool debugUtils = false;
+    bool validation = false;          // the Khronos layer is on
     bool presentation = false;
     float maxAnisotropy = 1.0f;       // 1 where the feature is off
     uint32_t maxImageSize = 4096;     // pixels a side, 2D
@@ -90,7 +91,8 @@ public:
     void release(VkObjectType type, uint64_t handle);
     template <class Handle> void release(VkObjectType type, Handle handle) { release(type, (uint64_t)handle); }
 
-    // Memory. `bytes` counts towards memoryUse() until the memory is released.
+    // Memory. The size counts towards memoryUse() until the memory is really freed: framesInFlight frames after its
+    // release, or at waitIdle().
     Status allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
                     VkDeviceMemory& memory, VkMemoryPropertyFlags* got = nullptr);
     void releaseMemory(VkDeviceMemory memory, uint64_t bytes);
@@ -107,9 +109,14 @@ public:
 
 private:
     Device() = default;
+    bool createInstance(const DeviceOptions& options, std::string& error);
+    bool createDevice(const DeviceOptions& options, std::string& error);
     Status finish();
+    void readPipelineCache(const VkPhysicalDeviceProperties& properties);
+    void writePipelineCache() const;
     void destroy(VkObjectType type, uint64_t handle);
-    struct Released { uint64_t frame; VkObjectType type; uint64_t handle; };
+    void destroyReleased(uint64_t lastFrame);
+    struct Released { uint64_t frame; VkObjectType type; uint64_t handle; uint64_t bytes; };
 
     Api m_vk;
     VkInstance m_instance = VK_NULL_HANDLE;
@@ -119,6 +126,7 @@ private:
     VkDebugUtilsMessengerEXT m_messenger = VK_NULL_HANDLE;
     VkPipelineCache m_pipelineCache = VK_NULL_HANDLE;
     VkCommandPool m_commandPool = VK_NULL_HANDLE;
+    VkCommandBuffer m_commandBuffer = VK_NULL_HANDLE;  // of runNow
     const VkAllocationCallbacks* m_allocator = nullptr;
     uint32_t m_queueFamily = 0;
     uint32_t m_framesInFlight = 2;
@@ -127,7 +135,7 @@ private:
     VkPhysicalDeviceMemoryProperties m_memory{};
     Log m_log;
     std::string m_pipelineCacheFile;
-    std::vector<uint8_t> m_pipelineCacheRead;
+    std::vector<uint8_t> m_pipelineCacheRead;          // what the driver was given, to see whether it has grown
     uint64_t m_frame = 0;
     uint64_t m_memoryUse = 0;
     uint64_t m_validationMessages = 0;

@@ -69,7 +69,8 @@ private:
         uint64_t generation = 0;
         std::string error;
         std::vector<std::filesystem::path> files;
-        std::filesystem::file_time_type stamp{};
+        std::filesystem::file_time_type stamp{};   // the newest of `files`
+        uint64_t bytes = 0;                        // and their sizes added up: two saves may share one clock tick
     };
     std::map<std::string, Entry, std::less<>> m_entries;
     std::filesystem::path m_root;

@@ -1,0 +1,21 @@
+// GLSL to SPIR-V 1.6 for Vulkan 1.3, with its reflection. Used at build time by obscura-compile-shaders and while running
+// by hot reload; nothing else needs glslang.
+#pragma once
+
+#include "gpu/shader.h"
+
+namespace obscura::gpu {
+
+// A gpu::CompileShader. The stage follows from the extension: .comp, .vert or .frag. #include "x" looks beside the including
+// file, then below `root`; #include <x> below `root` only. Needs no #extension line; a file with #pragma once counts once.
+// `error`: one line a message, "shaders/ao/x.comp:12: message", paths from the root's own folder on. Any thread may call it.
+bool compileShader(const std::filesystem::path& file, const std::filesystem::path& root, Shader& out, std::string& error,
+                   std::vector<std::filesystem::path>& dependencies);
+
+// Bindings, workgroup and push constants of `shader.spirv`, which must still carry its names.
+bool reflect(Shader& shader, std::string& error);
+
+// Drops names, sources and line numbers.
+void stripDebugInfo(std::vector<uint32_t>& spirv);
+
+}  // namespace obscura::gpu

@@ -1,0 +1,292 @@
+#include "gpu/program.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "gpu/result.h"
+
+namespace obscura::gpu {
+
+namespace {
+
+// What every Vulkan device has, and what the layouts of a frame are planned with.
+constexpr uint32_t kMaxPushConstantBytes = 128;
+
+VkDescriptorType descriptorType(BindingKind kind) {
+    switch (kind) {
+        case BindingKind::sampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        case BindingKind::storageImage: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        case BindingKind::uniformBuffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        case BindingKind::storageBuffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+    return VK_DESCRIPTOR_TYPE_MAX_ENUM;
+}
+
+struct Specialization {
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<uint32_t> values;
+    VkSpecializationInfo info{};
+
+    explicit Specialization(const std::vector<Constant>& constants) {
+        for (const Constant& constant : constants) {
+            entries.push_back({constant.id, uint32_t(values.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+            values.push_back(constant.value);
+        }
+        info = {uint32_t(entries.size()), entries.data(), values.size() * sizeof(uint32_t), values.data()};
+    }
+};
+
+VkResult createGraphicsPipeline(const Device& device, const std::vector<VkPipelineShaderStageCreateInfo>& stages,
+                                const GraphicsState& state, VkPipelineLayout layout, VkPipeline& pipeline) {
+    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    rendering.colorAttachmentCount = uint32_t(state.colorFormats.size());
+    rendering.pColorAttachmentFormats = state.colorFormats.data();
+    rendering.depthAttachmentFormat = state.depthFormat;
+
+    VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    vertices.vertexBindingDescriptionCount = uint32_t(state.vertexBindings.size());
+    vertices.pVertexBindingDescriptions = state.vertexBindings.data();
+    vertices.vertexAttributeDescriptionCount = uint32_t(state.vertexAttributes.size());
+    vertices.pVertexAttributeDescriptions = state.vertexAttributes.data();
+    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = state.topology;
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.polygonMode = VK_POLYGON_MODE_FILL;
+    raster.lineWidth = 1.0f;
+    raster.depthBiasEnable = state.depthBias != 0.0f || state.depthBiasSlope != 0.0f;
+    raster.depthBiasConstantFactor = state.depthBias;
+    raster.depthBiasSlopeFactor = state.depthBiasSlope;
+    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.depthTestEnable = state.depthTest || state.depthWrite;  // without the test Vulkan writes no depth
+    depth.depthWriteEnable = state.depthWrite;
+    depth.depthCompareOp = state.depthTest ? state.depthCompare : VK_COMPARE_OP_ALWAYS;
+    VkPipelineColorBlendAttachmentState over{};
+    over.blendEnable = state.blend;
+    over.srcColorBlendFactor = over.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    over.dstColorBlendFactor = over.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    over.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    const std::vector<VkPipelineColorBlendAttachmentState> targets(state.colorFormats.size(), over);
+    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    blend.attachmentCount = uint32_t(targets.size());
+    blend.pAttachments = targets.data();
+    constexpr VkDynamicState kDynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    dynamic.dynamicStateCount = uint32_t(std::size(kDynamic));
+    dynamic.pDynamicStates = kDynamic;
+
+    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
+    info.pNext = &rendering;
+    info.stageCount = uint32_t(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &vertices;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &samples;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamic;
+    info.layout = layout;
+    return device.vk().CreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, device.allocator(), &pipeline);
+}
+
+}  // namespace
+
+Program::~Program() { releaseAll(); }
+
+void Program::releaseAll() {
+    if (!m_device) return;
+    m_device->release(VK_OBJECT_TYPE_PIPELINE, m_pipeline);
+    m_device->release(VK_OBJECT_TYPE_PIPELINE_LAYOUT, m_layout);
+    for (VkDescriptorSetLayout layout : m_setLayouts) m_device->release(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout);
+    m_pipeline = VK_NULL_HANDLE;
+    m_layout = VK_NULL_HANDLE;
+    m_setLayouts.clear();
+}
+
+void Program::swap(Program& other) noexcept {
+    std::swap(m_device, other.m_device);
+    std::swap(m_shaders, other.m_shaders);
+    std::swap(m_name, other.m_name);
+    std::swap(m_vertex, other.m_vertex);
+    std::swap(m_fragment, other.m_fragment);
+    std::swap(m_constants, other.m_constants);
+    std::swap(m_state, other.m_state);
+    std::swap(m_bindPoint, other.m_bindPoint);
+    std::swap(m_generation, other.m_generation);
+    std::swap(m_pipeline, other.m_pipeline);
+    std::swap(m_layout, other.m_layout);
+    std::swap(m_setLayouts, other.m_setLayouts);
+    std::swap(m_bindings, other.m_bindings);
+    std::swap(m_bindingStages, other.m_bindingStages);
+    std::swap(m_stages, other.m_stages);
+    std::swap(m_workgroup, other.m_workgroup);
+    std::swap(m_pushConstantBytes, other.m_pushConstantBytes);
+}
+
+Status Program::compute(Device& device, const ShaderLibrary& shaders, std::string_view name, std::initializer_list<Constant> constants, Program& out) {
+    out = Program();
+    Program made;
+    made.m_device = &device;
+    made.m_shaders = &shaders;
+    made.m_name = made.m_vertex = name;
+    made.m_constants = constants;
+    made.m_bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
+    if (Status status = made.build(); status != Status::ok) return status;
+    out = std::move(made);
+    return Status::ok;
+}
+
+Status Program::graphics(Device& device, const ShaderLibrary& shaders, std::string_view vertex, std::string_view fragment,
+                         const GraphicsState& state, std::initializer_list<Constant> constants, Program& out) {
+    out = Program();
+    Program made;
+    made.m_device = &device;
+    made.m_shaders = &shaders;
+    made.m_vertex = vertex;
+    made.m_fragment = fragment;
+    made.m_name = fragment.empty() ? made.m_vertex : fmt::format("{} + {}", vertex, fragment);
+    made.m_constants = constants;
+    made.m_state = state;
+    made.m_bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    if (Status status = made.build(); status != Status::ok) return status;
+    out = std::move(made);
+    return Status::ok;
+}
+
+void Program::refresh() {
+    if (!m_shaders) return;
+    const uint64_t generation = m_shaders->generation(m_vertex) + m_shaders->generation(m_fragment);
+    if (generation == m_generation) return;
+    m_generation = generation;  // on failure too: one attempt an edit
+    Program next;
+    next.m_device = m_device;
+    next.m_shaders = m_shaders;
+    next.m_name = m_name;
+    next.m_vertex = m_vertex;
+    next.m_fragment = m_fragment;
+    next.m_constants = m_constants;
+    next.m_state = m_state;
+    next.m_bindPoint = m_bindPoint;
+    if (next.build() == Status::ok) swap(next);
+}
+
+VkShaderStageFlags Program::stagesOf(const Binding& binding) const {
+    for (size_t i = 0; i < m_bindings.size(); ++i)
+        if (m_bindings[i].set == binding.set && m_bindings[i].binding == binding.binding) return m_bindingStages[i];
+    return 0;
+}
+
+// On failure the half-made handles go with the object.
+Status Program::build() {
+    const auto bad = [&](Status status, const std::string& why) { return fail(*m_device, status, fmt::format("program '{}': {}", m_name, why)); };
+    const bool isCompute = m_bindPoint == VK_PIPELINE_BIND_POINT_COMPUTE;
+    std::vector<const Shader*> shaders;
+    m_generation = 0;
+    for (const std::string* name : {&m_vertex, &m_fragment}) {
+        if (name->empty()) continue;
+        const Shader* shader = m_shaders->find(*name);
+        if (!shader || shader->spirv.empty()) return bad(Status::shaderError, fmt::format("there is no shader '{}'", *name));
+        const VkShaderStageFlagBits stage = isCompute ? VK_SHADER_STAGE_COMPUTE_BIT : name == &m_vertex ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
+        if (shader->stage != stage) return bad(Status::invalid, fmt::format("'{}' is a shader of another stage", *name));
+        shaders.push_back(shader);
+        m_generation += m_shaders->generation(*name);
+    }
+    if (shaders.empty()) return bad(Status::invalid, "it has no shader");
+
+    struct Merged { Binding binding; VkShaderStageFlags stages; };
+    std::vector<Merged> merged;
+    for (const Shader* shader : shaders) {
+        m_stages |= shader->stage;
+        m_pushConstantBytes = std::max(m_pushConstantBytes, shader->pushConstantBytes);
+        for (const Binding& binding : shader->bindings) {
+            const auto same = std::find_if(merged.begin(), merged.end(), [&](const Merged& m) {
+                return m.binding.set == binding.set && m.binding.binding == binding.binding;
+            });
+            if (same == merged.end()) {
+                merged.push_back({binding, VkShaderStageFlags(shader->stage)});
+                continue;
+            }
+            if (same->binding.kind != binding.kind)
+                return bad(Status::invalid, fmt::format("its stages disagree on what set {} binding {} is ('{}', '{}')", binding.set, binding.binding, same->binding.name, binding.name));
+            same->binding.reads |= binding.reads;
+            same->binding.writes |= binding.writes;
+            same->stages |= shader->stage;
+        }
+    }
+    std::sort(merged.begin(), merged.end(), [](const Merged& a, const Merged& b) {
+        return std::pair(a.binding.set, a.binding.binding) < std::pair(b.binding.set, b.binding.binding);
+    });
+    if (m_pushConstantBytes > kMaxPushConstantBytes)
+        return bad(Status::unsupported, fmt::format("{} bytes of push constants; {} are allowed", m_pushConstantBytes, kMaxPushConstantBytes));
+    m_workgroup = isCompute ? shaders.front()->workgroup : std::array<uint32_t, 3>{1, 1, 1};
+    for (const Merged& m : merged) {
+        m_bindings.push_back(m.binding);
+        m_bindingStages.push_back(m.stages);
+    }
+
+    const Api& vk = m_device->vk();
+    const uint32_t sets = merged.empty() ? 0 : merged.back().binding.set + 1;
+    for (uint32_t set = 0; set < sets; ++set) {
+        std::vector<VkDescriptorSetLayoutBinding> slots;
+        for (const Merged& m : merged)
+            if (m.binding.set == set) slots.push_back({m.binding.binding, descriptorType(m.binding.kind), 1, m.stages, nullptr});
+        VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+        info.bindingCount = uint32_t(slots.size());
+        info.pBindings = slots.data();
+        VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+        if (VkResult result = vk.CreateDescriptorSetLayout(m_device->handle(), &info, m_device->allocator(), &layout))
+            return bad(fromVulkan(result), resultName(result));
+        m_setLayouts.push_back(layout);
+    }
+    // One range over all stages, so that stages() is what vkCmdPushConstants is called with.
+    const VkPushConstantRange range{m_stages, 0, (m_pushConstantBytes + 3) & ~3u};
+    VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    info.setLayoutCount = sets;
+    info.pSetLayouts = m_setLayouts.data();
+    info.pushConstantRangeCount = range.size ? 1 : 0;
+    info.pPushConstantRanges = &range;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkResult result = vk.CreatePipelineLayout(m_device->handle(), &info, m_device->allocator(), &layout);
+    if (result != VK_SUCCESS) return bad(fromVulkan(result), resultName(result));
+    m_layout = layout;
+
+    const Specialization specialization(m_constants);
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    for (const Shader* shader : shaders) {
+        VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+        module.codeSize = shader->spirv.size() * sizeof(uint32_t);
+        module.pCode = shader->spirv.data();
+        VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+        result = vk.CreateShaderModule(m_device->handle(), &module, m_device->allocator(), &stage.module);
+        if (result != VK_SUCCESS) break;
+        stage.stage = shader->stage;
+        stage.pName = "main";
+        stage.pSpecializationInfo = &specialization.info;
+        stages.push_back(stage);
+    }
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    if (result == VK_SUCCESS) {
+        if (isCompute) {
+            VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+            create.stage = stages.front();
+            create.layout = m_layout;
+            result = vk.CreateComputePipelines(m_device->handle(), m_device->pipelineCache(), 1, &create, m_device->allocator(), &pipeline);
+        } else {
+            result = createGraphicsPipeline(*m_device, stages, m_state, m_layout, pipeline);
+        }
+    }
+    for (const VkPipelineShaderStageCreateInfo& stage : stages) vk.DestroyShaderModule(m_device->handle(), stage.module, m_device->allocator());
+    if (result != VK_SUCCESS) return bad(fromVulkan(result), fmt::format("the driver refused the pipeline: {}", resultName(result)));
+    m_pipeline = pipeline;
+    m_device->nameObject(VK_OBJECT_TYPE_PIPELINE, (uint64_t)m_pipeline, m_name.c_str());
+    return Status::ok;
+}
+
+}  // namespace obscura::gpu

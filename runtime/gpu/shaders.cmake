@@ -1,0 +1,21 @@
+# obscura_shaders(<target> <namespace> <name>...)
+# Compiles shaders, named relative to the shaders/ folder, and adds to the target a source file that defines
+#   std::span<const gpu::EmbeddedShader> obscura::<namespace>::shaders()
+# Edits of a shader or of anything it includes rebuild it. The target links obscura_gpu.
+set_property(GLOBAL PROPERTY OBSCURA_SHADER_ROOT ${CMAKE_CURRENT_LIST_DIR}/../../shaders)
+
+function(obscura_shaders target namespace)
+  get_property(root GLOBAL PROPERTY OBSCURA_SHADER_ROOT)
+  get_filename_component(root ${root} ABSOLUTE)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders.cpp)
+  list(TRANSFORM ARGN PREPEND ${root}/ OUTPUT_VARIABLE sources)
+  add_custom_command(
+    OUTPUT ${out}
+    COMMAND obscura-compile-shaders --root ${root} --namespace ${namespace} --out ${out} --depfile ${out}.d
+            $<$<CONFIG:Debug>:--names> ${ARGN}
+    DEPENDS obscura-compile-shaders ${sources}
+    DEPFILE ${out}.d
+    COMMENT "Compiling shaders of ${target}"
+    COMMAND_EXPAND_LISTS VERBATIM)
+  target_sources(${target} PRIVATE ${out})
+endfunction()
