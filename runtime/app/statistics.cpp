@@ -1,0 +1,50 @@
+#include "app/statistics.h"
+
+#include <algorithm>
+
+namespace obscura::app {
+
+double percentile(std::vector<double> values, double rank) {
+    if (values.empty()) return 0.0;
+    const size_t index = std::min(values.size() - 1, size_t(rank * double(values.size())));
+    std::nth_element(values.begin(), values.begin() + long(index), values.end());
+    return values[index];
+}
+
+void Statistics::push(Series& series, double value) const {
+    if (series.values.size() >= m_keep) series.values.erase(series.values.begin());
+    series.values.push_back(value);
+}
+
+void Statistics::add(const graph::Timings& timings) {
+    if (timings.passes.empty() || timings.frame == m_last) return;
+    m_last = timings.frame;
+    push(m_gpu, timings.milliseconds);
+    std::vector<Series> passes;
+    for (const graph::PassTime& time : timings.passes) {
+        // A pass may be declared several times in a frame (mip chains): their times add up.
+        const auto again = std::find_if(passes.begin(), passes.end(), [&](const Series& s) { return s.name == time.name; });
+        if (again != passes.end()) {
+            again->values.back() += time.milliseconds;
+            continue;
+        }
+        const auto known = std::find_if(m_passes.begin(), m_passes.end(), [&](const Series& s) { return s.name == time.name; });
+        passes.push_back(known != m_passes.end() ? std::move(*known) : Series{time.name, {}});
+        push(passes.back(), time.milliseconds);
+    }
+    m_passes = std::move(passes);
+}
+
+void Statistics::addCpu(double recording, double frame) {
+    push(m_cpu, recording);
+    push(m_frame, frame);
+}
+
+void Statistics::clear() {
+    m_passes.clear();
+    m_gpu.values.clear();
+    m_cpu.values.clear();
+    m_frame.values.clear();
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,44 @@
+// Frame and pass times over the last frames: what the overlay plots and the report prints.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+
+namespace obscura::app {
+
+// The value below which the fraction `rank` of the values lies (0.5: median); 0 when there are none.
+double percentile(std::vector<double> values, double rank);
+
+struct Series {
+    std::string name;
+    std::vector<double> values;  // milliseconds, oldest first
+    double median() const { return percentile(values, 0.5); }
+    double p95() const { return percentile(values, 0.95); }
+    double worst() const { return percentile(values, 1.0); }
+};
+
+class Statistics {
+public:
+    explicit Statistics(size_t keep) : m_keep(keep) {}
+    // Takes timings once, whenever the graph shows those of another frame than before.
+    void add(const graph::Timings& timings);
+    void addCpu(double recording, double frame);  // milliseconds
+    void clear();
+
+    const std::vector<Series>& passes() const { return m_passes; }  // in the newest frame's order; gone ones are dropped
+    const Series& gpu() const { return m_gpu; }      // first to last timestamp
+    const Series& cpu() const { return m_cpu; }      // recording and submitting
+    const Series& frame() const { return m_frame; }  // from one frame's begin to the next one's
+
+private:
+    void push(Series& series, double value) const;
+    size_t m_keep;
+    uint64_t m_last = 0;
+    std::vector<Series> m_passes;
+    Series m_gpu{"gpu", {}}, m_cpu{"cpu", {}}, m_frame{"frame", {}};
+};
+
+}  // namespace obscura::app
