@@ -1,0 +1,53 @@
+// Rendered references on disk, under a hash of everything that determines them. A reference takes minutes; a tool that is
+// started again finds it here.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "truth/screen_reference.h"
+#include "truth/world_reference.h"
+
+namespace obscura::truth {
+
+// 128 bits of what was added, in order. Not against an adversary.
+class Hash {
+public:
+    Hash& add(const void* bytes, size_t count);
+    Hash& add(std::string_view text);  // its length too
+    template <class T> requires std::is_arithmetic_v<T> Hash& add(T value) { return add(&value, sizeof value); }
+    std::string hex() const;           // 32 digits
+
+private:
+    void word(uint64_t value);
+    uint64_t m_a = 0x243f6a8885a308d3ull, m_b = 0x13198a2e03707344ull, m_bytes = 0;
+};
+
+// Keys. They cover: the posed triangles themselves (so the scene's bytes, time and animation), the models' hashes (textures
+// of masked materials), geometry options, the frame's receivers and camera, names, samples and reaches of the falloffs, and
+// the ray options that change the result. Not covered, because they change nothing: threads and progress.
+std::string worldKey(std::span<const scene::PosedPrimitive> primitives, const WorldGeometry& geometry, const CapturedFrame& frame,
+                     std::span<const RayFalloff> falloffs, const WorldOptions& options);
+std::string screenKey(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const ScreenOptions& options);
+
+class ReferenceCache {
+public:
+    using Warn = std::function<void(const std::string& line)>;
+    // The folder is made when first written to. An empty one turns the cache off. `warn` hears of broken files and of a
+    // folder that cannot be written (once); the work goes on without.
+    explicit ReferenceCache(std::filesystem::path folder = defaultFolder(), Warn warn = {});
+    // OBSCURA_CACHE, else $XDG_CACHE_HOME/obscura, else $HOME/.cache/obscura, else empty. OBSCURA_CACHE="" turns it off.
+    static std::filesystem::path defaultFolder();
+
+    // From disk (fromCache is set), or made now and written: to a temporary name, then renamed.
+    Reference get(const std::string& key, const std::function<Reference()>& make);
+    std::filesystem::path fileOf(const std::string& key) const;
+
+private:
+    std::filesystem::path m_folder;
+    Warn m_warn;
+    bool m_complained = false;
+};
+
+}  // namespace obscura::truth
