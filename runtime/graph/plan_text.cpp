@@ -29,7 +29,8 @@ template <size_t N> std::string bits(uint64_t value, const Bit (&table)[N]) {
     std::string result;
     for (const Bit& entry : table) {
         if (!(value & entry.bit)) continue;
-        result += (result.empty() ? "" : "+") + std::string(entry.name);
+        if (!result.empty()) result += '+';
+        result += entry.name;
         value &= ~entry.bit;
     }
     if (value) result += fmt::format("{}{:#x}", result.empty() ? "" : "+", value);

@@ -2,7 +2,8 @@
 // the screen the horizon angle is raised sample by sample; what it gains counts with the falloff at that sample:
 //     A = 1/N sum over directions, sum over samples that raise the horizon of rho(|S-P|) (sin h - sin h_before)
 // starting at the tangent plane plus a bias. Two changes to the paper: the falloff is the shared type, and the tangent is
-// where the neighbouring view ray meets the tangent plane, which is right under perspective.
+// where the neighbouring view ray meets the tangent plane, which is right under perspective. `axis`, `spacing` and
+// `sample_test` go further than the paper and are off by default, so that the yardstick stays the published one.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part; then the shared denoiser.
 #include "ao/resolve.h"
@@ -16,19 +17,28 @@ struct Constants {
     uint32_t steps;
     float bias;       // radians
     float maxPixels;  // reach on the screen, px
+    float spacing;
+    uint32_t viewAxis;
+    uint32_t sampleTest;
 };
 
+const char* const kAxes[] = {"camera", "view ray"};
 const Parameter kParameters[] = {
     {"directions", "", 1, 32, 16, true, {}, "Directions on the screen; cost grows with directions x steps."},
     {"steps", "", 1, 32, 8, true, {}, "Samples along each direction, out to the falloff's reach."},
     {"bias", "deg", 0, 60, 10, false, {}, "Angle above the tangent plane that is ignored; hides faceting, loses shallow creases."},
+    {"spacing", "", 1, 3, 1, false, {}, "Exponent of the sample distances: 1 evenly, 2 denser near the pixel."},
+    {"axis", "", 0, 1, 0, true, {kAxes, 2}, "What elevations are measured against: the camera's axis as in the paper, or each pixel's own view ray, which is right off the picture's centre."},
+    {"sample_test", "", 0, 1, 0, true, {}, "1: a sample must stand above the tangent plane by the bias itself; nearest-texel samples then raise no horizon on a bare plane."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
     {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
 };
 const Setting kFast[] = {{"directions", 8}, {"steps", 4}};
+const Setting kTuned[] = {{"spacing", 1.5f}, {"axis", 1}, {"sample_test", 1}};
 const Preset kPresets[] = {
     {"default", "16 directions x 8 steps, as in the paper.", {}},
     {"8x4", "A quarter of the samples.", {kFast, 2}},
+    {"tuned", "16 x 8, the view ray as axis, samples denser near the pixel, none that the tangent plane rules out.", {kTuned, 3}},
 };
 const MethodInfo kInfo{"hbao",
                        "Horizon-based ambient occlusion",
@@ -48,7 +58,8 @@ public:
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
-        const Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), values["bias"] * 0.017453293f, values["max_pixels"]};
+        const Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), values["bias"] * 0.017453293f, values["max_pixels"],
+                                  values["spacing"], values.count("axis"), values.count("sample_test")};
         const auto& visible = inputs.view.visible;
         const graph::ImageId visibility = graph.image("hbao.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph.pass("hbao.horizons", m_horizons).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility)

@@ -15,7 +15,10 @@ layout(push_constant) uniform Constants {
     uint directions;
     uint steps;
     float bias;       // radians
-    float maxPixels;
+    float maxPixels;  // longest reach, px
+    float spacing;    // sample i lies at ((i + offset) / steps)^spacing of the reach
+    uint viewAxis;    // elevations over the plane across 0: the camera's axis, as the paper; 1: the pixel's own view ray
+    uint sampleTest;  // 1: a sample counts only when it stands above the tangent plane by the bias itself
 };
 
 const float kTwoPi = 6.28318531;
@@ -52,14 +55,18 @@ void main() {
     vec2 pixel = vec2(texel) + 0.5;
     vec3 here = eyePosition(view, pixel, z);
     vec3 n = unpackNormal(imageLoad(normals, texel).x);
-    vec3 v = towardsEye(view, here);
-    if (dot(n, v) < 0.0) n = -n;
+    vec3 toEye = towardsEye(view, here);
+    if (dot(n, toEye) < 0.0) n = -n;
+    vec3 v = viewAxis != 0u ? toEye : vec3(0, 0, 1);
+    float cosBias = cos(bias), sinBias = sin(bias);
+    float leastRise = sampleTest != 0u ? sinBias : -1.0;
 
     float reach = min(rho.reach * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z), maxPixels);
     int tile = (texel.y & 3) * 4 + (texel.x & 3);
     float rotation = (kRotation[tile] + 0.5) / 16.0;
     float offset = (kOffset[tile] + 0.5) / 16.0;
     float stepPixels = max(reach / float(steps), 1.0);
+    float span = stepPixels * float(steps);
     ivec2 last = ivec2(view.size) - 1;
 
     float blocked = 0.0;
@@ -68,15 +75,17 @@ void main() {
         vec2 direction = vec2(cos(angle), sin(angle));
         float tangent = tangentSine(here, n, v, pixel, direction);
         // sin(t + bias)
-        float horizon = min(tangent * cos(bias) + sqrt(max(1.0 - tangent * tangent, 0.0)) * sin(bias), 1.0);
+        float horizon = min(tangent * cosBias + sqrt(max(1.0 - tangent * tangent, 0.0)) * sinBias, 1.0);
         for (uint i = 0u; i < steps; ++i) {
-            ivec2 q = ivec2(floor(pixel + direction * max((float(i) + offset) * stepPixels, 1.0)));
+            float along = (float(i) + offset) / float(steps);
+            if (spacing != 1.0) along = pow(along, spacing);
+            ivec2 q = ivec2(floor(pixel + direction * max(along * span, 1.0)));
             if (any(lessThan(q, ivec2(0))) || any(greaterThan(q, last))) break;
             vec3 d = eyePosition(view, vec2(q) + 0.5, imageLoad(depth, q).x) - here;
             float distance2 = dot(d, d);
             float inverse = inversesqrt(max(distance2, 1e-20));
             float sine = dot(d, v) * inverse;
-            if (sine > horizon) {
+            if (sine > horizon && dot(d, n) * inverse >= leastRise) {
                 blocked += falloff(rho, distance2 * inverse) * (sine - horizon);
                 horizon = sine;
             }
