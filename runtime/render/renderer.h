@@ -42,6 +42,9 @@ struct FrameOptions {
     float exposure = 1.0f;
     bool cut = false;                 // first frame after a jump: histories and motion are void
     bool skipMasked = false;          // leave alpha-masked primitives out (stored references do)
+    bool cull = true;                 // leave out what lies outside the frustum, guard band included
+    uint32_t shadowSize = 2048;       // texels a side
+    float shadowReach = 40.0f;        // metres around the camera that get shadows, in worlds larger than that
 };
 
 struct Outputs {

@@ -1,0 +1,194 @@
+#include "render/actors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura::render {
+namespace {
+
+scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix) {
+    scene::Bounds out;
+    if (box.empty) return out;
+    const glm::vec3 centre = glm::vec3(matrix * glm::vec4(box.centre(), 1.0f));
+    const glm::vec3 half = 0.5f * (box.max - box.min);
+    const glm::vec3 reach = glm::abs(glm::vec3(matrix[0])) * half.x + glm::abs(glm::vec3(matrix[1])) * half.y + glm::abs(glm::vec3(matrix[2])) * half.z;
+    out.add(centre - reach);
+    out.add(centre + reach);
+    return out;
+}
+
+void grow(scene::Bounds& box, const scene::Bounds& other) {
+    if (other.empty) return;
+    box.add(other.min);
+    box.add(other.max);
+}
+
+scene::Bounds widened(scene::Bounds box, const glm::vec3& by) {
+    box.min -= by;
+    box.max += by;
+    return box;
+}
+
+// Whatever the weights, a morphed vertex stays within their sum of reaches.
+glm::vec3 morphReach(const PrimitiveGpu& primitive, const std::vector<float>& weights) {
+    glm::vec3 reach(0.0f);
+    for (size_t t = 0; t < primitive.targetReach.size() && t < weights.size(); ++t) reach += std::abs(weights[t]) * primitive.targetReach[t];
+    return reach;
+}
+
+bool samePose(const scene::Pose& a, const scene::Pose& b) { return a.world == b.world && a.weights == b.weights; }
+
+}  // namespace
+
+uint32_t Ranges::take(uint32_t count) {
+    for (size_t i = 0; i < m_free.size(); ++i) {
+        Free& free = m_free[i];
+        if (free.count < count) continue;
+        const uint32_t first = free.first;
+        free.first += count;
+        free.count -= count;
+        if (free.count == 0) m_free.erase(m_free.begin() + ptrdiff_t(i));
+        return first;
+    }
+    // Doubling keeps the copies that growth costs rare.
+    const uint32_t capacity = std::max({m_capacity * 2, m_capacity + count, 4096u});
+    give(m_capacity, capacity - m_capacity);
+    m_capacity = capacity;
+    return take(count);
+}
+
+void Ranges::give(uint32_t first, uint32_t count) {
+    auto at = std::lower_bound(m_free.begin(), m_free.end(), first, [](const Free& free, uint32_t value) { return free.first < value; });
+    at = m_free.insert(at, {first, count});
+    const auto joinNext = [&](auto it) {
+        if (it + 1 == m_free.end() || it->first + it->count != (it + 1)->first) return;
+        it->count += (it + 1)->count;
+        m_free.erase(it + 1);
+    };
+    joinNext(at);
+    if (at != m_free.begin()) joinNext(at - 1);
+}
+
+void Actors::release(Actor& actor) {
+    for (Piece& piece : actor.pieces)
+        if (piece.posed != kNotPosed) m_ranges.give(piece.posed, piece.primitive->vertexCount);
+    actor.pieces.clear();
+}
+
+void Actors::rebuild(Actor& actor, const scene::Instance& instance, const ModelGpu& model) {
+    release(actor);
+    actor = {};
+    actor.model = instance.model;
+    actor.root = instance.root;
+    for (const int node : scene::subtree(*instance.model, instance.root)) {
+        const scene::Node& source = instance.model->nodes[size_t(node)];
+        if (source.mesh < 0) continue;
+        for (const PrimitiveGpu& primitive : model.meshes[size_t(source.mesh)]) {
+            if (primitive.indexCount == 0) continue;
+            Piece piece{node, &primitive, primitive.skinned && source.skin >= 0};
+            if (piece.skinned || primitive.morphed) piece.posed = m_ranges.take(primitive.vertexCount);
+            actor.pieces.push_back(piece);
+        }
+    }
+}
+
+void Actors::addJobs(const Actor& actor, const ModelGpu& model, const std::map<int, uint32_t>& skins) {
+    for (const Piece& piece : actor.pieces) {
+        if (piece.posed == kNotPosed) continue;
+        const PrimitiveGpu& primitive = *piece.primitive;
+        shared::DeformJob job{};
+        job.vertices = primitive.vertexCount;
+        job.positions = primitive.restPositions;
+        job.frames = primitive.restFrames;
+        job.influences = piece.skinned ? primitive.influences : ~0u;
+        job.joints = piece.skinned ? skins.at(actor.model->nodes[size_t(piece.node)].skin) : 0;
+        job.targets = primitive.targets;
+        job.weights = uint32_t(m_weights.size());
+        job.posed = piece.posed;
+        const std::vector<float>& weights = actor.pose.weights[size_t(piece.node)];
+        for (uint32_t t = 0; t < primitive.targetReach.size() && t < weights.size(); ++t)
+            if (weights[t] != 0.0f) m_weights.push_back({t, weights[t]});
+        job.weightCount = uint32_t(m_weights.size()) - job.weights;
+        m_jobs.push_back({job, &model});
+    }
+}
+
+void Actors::update(const scene::World& world, float time, bool cut, const FindModel& find) {
+    m_drawables.clear();
+    m_jobs.clear();
+    m_joints.clear();
+    m_weights.clear();
+    for (auto& [id, actor] : m_actors) actor.seen = false;
+
+    for (const scene::Instance& instance : world.instances()) {
+        const ModelGpu* model = instance.model ? find(instance.model.get()) : nullptr;
+        if (!model) continue;
+        Actor& actor = m_actors[instance.id];
+        if (actor.model != instance.model || actor.root != instance.root) rebuild(actor, instance, *model);
+        actor.seen = true;
+
+        const bool fresh = actor.fresh || cut;
+        const float when = time + instance.timeOffset;
+        bool samePoses = !actor.fresh;
+        if (actor.fresh || actor.time != when || actor.animation != instance.animation) {
+            scene::Pose pose = scene::evaluate(*instance.model, instance.animation, when);
+            samePoses = samePoses && samePose(pose, actor.pose);
+            actor.pose = std::move(pose);
+        }
+        actor.unchanged = samePoses ? actor.unchanged + 1 : 0;
+        if (!samePoses) actor.version = ++m_versions;
+        actor.time = when;
+        actor.animation = instance.animation;
+        actor.fresh = false;
+
+        // Joint matrices of the skins in use; also what deformed bounds follow from.
+        std::map<int, std::vector<glm::mat4>> skins;
+        std::map<int, uint32_t> skinAt;
+        // Two buffers take turns: once the same pose stands in both there is nothing to write.
+        const bool deforms = actor.unchanged < 2;
+        for (const Piece& piece : actor.pieces) {
+            const int skin = instance.model->nodes[size_t(piece.node)].skin;
+            if (!piece.skinned || skins.count(skin)) continue;
+            auto& matrices = skins[skin] = scene::jointMatrices(*instance.model, instance.model->skins[size_t(skin)], actor.pose);
+            if (!deforms) continue;
+            skinAt[skin] = uint32_t(m_joints.size() / 3);
+            for (const glm::mat4& m : matrices)
+                for (int row = 0; row < 3; ++row) m_joints.emplace_back(m[0][row], m[1][row], m[2][row], m[3][row]);
+        }
+        if (deforms) addJobs(actor, *model, skinAt);
+
+        for (Piece& piece : actor.pieces) {
+            const PrimitiveGpu& primitive = *piece.primitive;
+            Drawable drawable;
+            drawable.model = model;
+            drawable.primitive = &primitive;
+            drawable.posed = piece.posed;
+            drawable.fresh = fresh;
+            drawable.version = piece.posed == kNotPosed ? 0 : actor.version;
+            drawable.world = piece.skinned ? instance.placement : instance.placement * actor.pose.world[size_t(piece.node)];
+            drawable.previousWorld = fresh ? drawable.world : piece.world;
+            drawable.still = fresh || (drawable.world == piece.world && (piece.posed == kNotPosed || samePoses));
+            const glm::vec3 reach = morphReach(primitive, actor.pose.weights[size_t(piece.node)]);
+            glm::mat4 facing = drawable.world;
+            if (piece.skinned) {
+                // A skinned vertex is a mean of what its joints make of it, so it stays in the hull of their boxes.
+                const auto& matrices = skins[instance.model->nodes[size_t(piece.node)].skin];
+                for (const PrimitiveGpu::JointBox& box : primitive.jointBoxes)
+                    grow(drawable.bounds, transformed(widened(box.box, reach), instance.placement * matrices[box.joint]));
+                if (!primitive.jointBoxes.empty()) facing = instance.placement * matrices[primitive.jointBoxes.front().joint];
+            } else {
+                drawable.bounds = transformed(widened(primitive.bounds, reach), drawable.world);
+            }
+            drawable.flipped = glm::determinant(glm::mat3(facing)) < 0.0f;
+            piece.world = drawable.world;
+            m_drawables.push_back(std::move(drawable));
+        }
+    }
+    for (auto it = m_actors.begin(); it != m_actors.end();) {
+        if (it->second.seen) { ++it; continue; }
+        release(it->second);
+        it = m_actors.erase(it);
+    }
+}
+
+}  // namespace obscura::render

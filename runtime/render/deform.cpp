@@ -1,0 +1,119 @@
+#include "render/deform.h"
+
+namespace obscura::render {
+namespace {
+
+using gpu::Status;
+using graph::Access;
+
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+}  // namespace
+
+Status Deform::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Deform& out) {
+    out.m_device = &device;
+    return gpu::Program::compute(device, shaders, "scene/deform.comp", {}, out.m_program);
+}
+
+Deform::~Deform() {
+    for (auto& [model, rest] : m_rest) m_device->release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, rest.pool);
+}
+
+void Deform::forget(const ModelGpu& model) {
+    const auto found = m_rest.find(&model);
+    if (found == m_rest.end()) return;
+    m_device->release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, found->second.pool);
+    m_rest.erase(found);
+}
+
+VkDescriptorSet Deform::restOf(const ModelGpu& model) {
+    Rest& rest = m_rest[&model];
+    if (rest.set != VK_NULL_HANDLE) return rest.set;
+    const gpu::Api& vk = m_device->vk();
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3};
+    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    info.maxSets = 1;
+    info.poolSizeCount = 1;
+    info.pPoolSizes = &size;
+    if (rest.pool == VK_NULL_HANDLE && vk.CreateDescriptorPool(m_device->handle(), &info, m_device->allocator(), &rest.pool) != VK_SUCCESS) return VK_NULL_HANDLE;
+    const VkDescriptorSetLayout layout = m_program.setLayout(1);
+    const VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, rest.pool, 1, &layout};
+    if (vk.AllocateDescriptorSets(m_device->handle(), &allocate, &rest.set) != VK_SUCCESS) {
+        rest.set = VK_NULL_HANDLE;
+        return VK_NULL_HANDLE;
+    }
+    const VkDescriptorBufferInfo buffers[] = {{model.rest.handle(), 0, VK_WHOLE_SIZE}, {model.influences.handle(), 0, VK_WHOLE_SIZE},
+                                              {model.targets.handle(), 0, VK_WHOLE_SIZE}};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, rest.set, 0, 0, 3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    write.pBufferInfo = buffers;
+    vk.UpdateDescriptorSets(m_device->handle(), 1, &write, 0, nullptr);
+    return rest.set;
+}
+
+// Larger buffers that hold what the old ones did: nobody else's history is lost when an instance joins. Posed frames have
+// no history, but those of a pose at rest are not written again either, so the last ones are moved too.
+Status Deform::grow(graph::Graph& graph, uint32_t vertices) {
+    gpu::Buffer old[3] = {std::move(m_positions[0]), std::move(m_positions[1]), std::move(m_frames)};
+    gpu::Buffer* fresh[3] = {&m_positions[0], &m_positions[1], &m_frames};
+    const uint32_t bytes[3] = {kPositionBytes, kPositionBytes, kFrameBytes};
+    static constexpr const char* kNames[3] = {"posed 0", "posed 1", "posed frames"};
+    for (int i = 0; i < 3; ++i) {
+        const Status status = gpu::Buffer::create(*m_device, uint64_t(vertices) * bytes[i], kUsage, gpu::Memory::device, kNames[i], *fresh[i]);
+        if (status != Status::ok) return status;
+        m_ids[i] = graph.import(kNames[i], *fresh[i], graph::Graph::Shared::written);
+        if (!old[i]) continue;
+        const graph::BufferId from = graph.import("outgrown", old[i], graph::Graph::Shared::written);
+        const VkBuffer source = old[i].handle(), target = fresh[i]->handle();
+        const VkBufferCopy copy{0, 0, old[i].bytes()};
+        graph.pass("deform.grow").use(from, Access::transferRead).use(m_ids[i], Access::transferWrite).record([=](const graph::PassContext& c) {
+            c.device.vk().CmdCopyBuffer(c.cmd, source, target, 1, &copy);
+        });
+    }
+    m_capacity = vertices;
+    return Status::ok;  // `old` dies here; the device keeps it until this frame has left the GPU
+}
+
+Deform::Posed Deform::add(graph::Graph& graph, const Actors& actors) {
+    Posed posed;
+    if (actors.posedCapacity() == 0) return posed;
+    if (actors.posedCapacity() > m_capacity) {
+        if (grow(graph, actors.posedCapacity()) != Status::ok) return posed;
+    } else {
+        m_ids[0] = graph.import("posed 0", m_positions[0], graph::Graph::Shared::written);
+        m_ids[1] = graph.import("posed 1", m_positions[1], graph::Graph::Shared::written);
+        m_ids[2] = graph.import("posed frames", m_frames, graph::Graph::Shared::written);
+    }
+    m_current = 1 - m_current;
+    posed.now = m_ids[m_current];
+    posed.before = m_ids[1 - m_current];
+    posed.frames = m_ids[2];
+    posed.buffers = {m_positions[m_current].handle(), m_positions[1 - m_current].handle(), m_frames.handle()};
+    if (actors.jobs().empty()) return posed;
+
+    const glm::vec4 noJoint(0.0f);
+    const shared::ActiveWeight noWeight{};
+    const auto joints = actors.joints().empty() ? std::span(&noJoint, 1) : actors.joints();
+    const auto weights = actors.weights().empty() ? std::span(&noWeight, 1) : actors.weights();
+    graph.pass("deform", m_program)
+        .read(graph.upload("joints", joints.data(), joints.size_bytes()))
+        .read(graph.upload("morph weights", weights.data(), weights.size_bytes()))
+        .write(posed.now)
+        .write(posed.frames)
+        .record([this, &actors](const graph::PassContext& c) {
+            const ModelGpu* bound = nullptr;
+            for (const Actors::Job& job : actors.jobs()) {
+                if (job.model != bound) {
+                    const VkDescriptorSet set = restOf(*job.model);
+                    if (set == VK_NULL_HANDLE) continue;
+                    c.device.vk().CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c.program->layout(), 1, 1, &set, 0, nullptr);
+                    bound = job.model;
+                }
+                c.push(&job.job, sizeof(job.job));
+                c.device.vk().CmdDispatch(c.cmd, (job.job.vertices + c.program->workgroup()[0] - 1) / c.program->workgroup()[0], 1, 1);
+            }
+        });
+    return posed;
+}
+
+}  // namespace obscura::render

@@ -1,0 +1,34 @@
+// From G-buffer, visibility and shadow map to a picture: lighting, blended surfaces over it, tone mapping.
+#pragma once
+
+#include "render/gbuffer.h"
+#include "render/renderer.h"
+#include "render/shadow.h"
+#include "shared/view.h"
+
+namespace obscura::render {
+
+class Lighting {
+public:
+    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Lighting& out);
+
+    struct Inputs {
+        GBuffer gbuffer;
+        graph::ImageId visibility;
+        Shadow::Map shadow;
+        shared::View view;
+        glm::mat4 eyeFromWorld{1.0f};
+        Sun sun;
+        float exposure = 1.0f;
+        graph::BufferId frame, items;  // of the G-buffer
+        const DrawList* draws = nullptr;
+        Deform::Posed posed;
+    };
+    // Returns the picture, visible size. `draws` must stay until the graph has run.
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, Materials& materials);
+
+private:
+    gpu::Program m_light, m_blend, m_tonemap;
+};
+
+}  // namespace obscura::render

@@ -1,0 +1,227 @@
+// The frame: models and poses brought up to date, then passes in order - deform, G-buffer, obscurance, shadow, lighting,
+// blending, tone mapping or a view.
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "render/gbuffer.h"
+#include "render/lighting.h"
+#include "render/shadow.h"
+#include "render/views.h"
+
+namespace obscura::render {
+
+using gpu::Status;
+
+struct Renderer::Impl {
+    Impl(gpu::Device& d, const gpu::ShaderLibrary& shaders) : device(d), library(d, shaders) {}
+
+    gpu::Device& device;
+    ao::Library library;
+    std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;
+    uint32_t modelSerial = 0;
+    Actors actors;
+    Materials materials;
+    Deform deform;
+    GBufferPass gbuffer;
+    Shadow shadow;
+    Lighting lighting;
+    Views views;
+
+    DrawList draws;                          // of the frame being recorded
+    std::optional<scene::Camera> lastCamera;
+    uint64_t frame = 0;                      // since the last cut
+    SceneFacts facts;
+
+    const ModelGpu* find(const scene::Model* model) const {
+        const auto found = models.find(model);
+        return found == models.end() ? nullptr : found->second.get();
+    }
+    Status load(const scene::World& world);
+    CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const;
+    graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible);
+    void count(const scene::World& world);
+};
+
+namespace {
+
+VkExtent2D guardOf(const FrameOptions& options) {
+    const float fraction = std::clamp(options.guard, 0.0f, 0.5f);
+    return {uint32_t(std::lround(fraction * float(options.visible.width))), uint32_t(std::lround(fraction * float(options.visible.height)))};
+}
+
+ao::Frame frameOf(VkExtent2D size, VkExtent2D guard, const glm::mat4& projection, uint64_t index) {
+    ao::Frame frame;
+    frame.size = size;
+    frame.guard = guard;
+    static_assert(sizeof(frame.projection) == sizeof(projection));
+    std::memcpy(frame.projection, &projection, sizeof(projection));
+    frame.depthKind = ao::DepthKind::device;
+    frame.normalKind = ao::NormalKind::eye;
+    frame.normalEncoding = ao::NormalEncoding::octahedral32;
+    frame.index = index;
+    return frame;
+}
+
+shared::SceneFrame sceneFrame(const CameraPair& camera, VkExtent2D size) {
+    shared::SceneFrame frame{};
+    std::memcpy(&frame.projection, &camera.projection, sizeof(frame.projection));
+    const float w = float(size.width), h = float(size.height);
+    frame.viewport = {w, h, 0.5f * w, 0.5f * h};
+    frame.orthographic = {camera.orthographic ? 1.0f : 0.0f, 0, 0, 0};
+    return frame;
+}
+
+}  // namespace
+
+Renderer::Renderer() = default;
+Renderer::~Renderer() = default;
+
+std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    std::unique_ptr<Renderer> renderer(new Renderer());
+    renderer->m_impl = std::make_unique<Impl>(device, shaders);
+    Impl& impl = *renderer->m_impl;
+    Status status = Materials::create(device, impl.materials);
+    if (status == Status::ok) status = Deform::create(device, shaders, impl.deform);
+    if (status == Status::ok) status = GBufferPass::create(device, shaders, impl.gbuffer);
+    if (status == Status::ok) status = Shadow::create(device, shaders, impl.shadow);
+    if (status == Status::ok) status = Lighting::create(device, shaders, impl.lighting);
+    if (status == Status::ok) status = Views::create(device, shaders, impl.views);
+    if (status == Status::ok) return renderer;
+    device.log(gpu::Severity::error, std::string("render: the renderer cannot be made: ") + gpu::name(status));
+    return nullptr;
+}
+
+ao::Library& Renderer::library() { return m_impl->library; }
+SceneFacts Renderer::facts() const { return m_impl->facts; }
+Status Renderer::load(const scene::World& world) { return m_impl->load(world); }
+
+Status Renderer::Impl::load(const scene::World& world) {
+    for (auto it = models.begin(); it != models.end();) {
+        const bool used = std::any_of(world.instances().begin(), world.instances().end(),
+                                      [&](const scene::Instance& instance) { return instance.model.get() == it->first; });
+        if (used) { ++it; continue; }
+        materials.forget(*it->second);
+        deform.forget(*it->second);
+        it = models.erase(it);
+    }
+    for (const scene::Instance& instance : world.instances()) {
+        if (!instance.model || models.count(instance.model.get())) continue;
+        auto made = std::make_unique<ModelGpu>();
+        const Status status = ModelGpu::create(device, instance.model, *made);
+        if (status != Status::ok) {
+            device.log(gpu::Severity::error, "render: cannot upload " + instance.model->name + ": " + gpu::name(status));
+            return status;
+        }
+        made->serial = modelSerial++;
+        models.emplace(instance.model.get(), std::move(made));
+    }
+    return Status::ok;
+}
+
+CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const {
+    const glm::vec2 whole(float(size.width), float(size.height)), shown(float(visible.width), float(visible.height));
+    CameraPair pair;
+    pair.view = camera.view();
+    pair.projection = camera.projection(whole, shown);
+    // Last frame's lens on this frame's image: a new size or guard band is not motion.
+    const scene::Camera& before = cut || !lastCamera ? camera : *lastCamera;
+    pair.previousView = before.view();
+    pair.previousProjection = before.projection(whole, shown);
+    pair.eye = camera.eye;
+    pair.orthographic = camera.orthoHalfHeight > 0.0f;
+    return pair;
+}
+
+// Stands in where the library could not run: it has said why.
+graph::ImageId Renderer::Impl::allOpen(graph::Graph& graph, VkExtent2D visible) {
+    const graph::ImageId image = graph.image("no visibility", {VK_FORMAT_R16_SFLOAT, visible.width, visible.height});
+    graph.pass("no visibility").use(image, graph::Access::transferWrite, true).record([image](const graph::PassContext& c) {
+        const VkClearColorValue one{{1.0f, 1.0f, 1.0f, 1.0f}};
+        const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        c.device.vk().CmdClearColorImage(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &one, 1, &range);
+    });
+    return image;
+}
+
+void Renderer::Impl::count(const scene::World& world) {
+    facts = {};
+    facts.triangles = draws.triangles;
+    facts.drawn = draws.drawn;
+    facts.draws = draws.draws();
+    facts.instances = world.instances().size();
+    for (const auto& [source, model] : models) {
+        facts.textureBytes += model->textureBytes;
+        facts.geometryBytes += model->geometryBytes;
+    }
+}
+
+Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const FrameOptions& options) {
+    Impl& impl = *m_impl;
+    impl.load(world);
+    const bool cut = options.cut || !impl.lastCamera;
+    if (cut) {
+        impl.library.reset();
+        impl.frame = 0;
+    }
+    const VkExtent2D guard = guardOf(options);
+    const VkExtent2D size{options.visible.width + 2 * guard.width, options.visible.height + 2 * guard.height};
+    const CameraPair camera = impl.cameras(options.camera, size, options.visible, cut);
+    impl.lastCamera = options.camera;
+
+    impl.actors.update(world, options.time, cut, [&](const scene::Model* model) { return impl.find(model); });
+    impl.draws = buildDraws(impl.actors.drawables(), camera, {options.cull, options.skipMasked, cut});
+    impl.count(world);
+    const Deform::Posed posed = impl.deform.add(graph, impl.actors);
+
+    if (impl.draws.items.empty()) impl.draws.items.push_back({});
+    const graph::BufferId frame = graph.upload("scene frame", sceneFrame(camera, size));
+    const graph::BufferId items = graph.upload("draw items", impl.draws.items.data(), impl.draws.items.size() * sizeof(shared::DrawItem));
+    const GBuffer g = impl.gbuffer.add(graph, size, frame, items, impl.draws, posed, impl.materials);
+
+    const ao::Frame aoFrame = frameOf(size, guard, camera.projection, impl.frame++);
+    ao::Inputs prepared;
+    graph::ImageId visibility = impl.library.add(graph, aoFrame, {g.depth, g.geometric, g.motion}, options.falloff, *options.method, &prepared);
+    if (!visibility) visibility = impl.allOpen(graph, options.visible);
+    shared::View view{};
+    const char* reason = nullptr;
+    ao::viewOf(aoFrame, view, reason);
+
+    Outputs out;
+    out.visibility = visibility;
+    out.depth = g.depth;
+    out.linearDepth = prepared.depth;
+    out.normals = g.geometric;
+    out.motion = g.motion;
+    if (options.view == View::final || options.view == View::pass) {
+        Lighting::Inputs in;
+        in.gbuffer = g;
+        in.visibility = visibility;
+        in.view = view;
+        in.eyeFromWorld = camera.view;
+        in.sun = options.sun;
+        in.exposure = options.exposure;
+        in.frame = frame;
+        in.items = items;
+        in.draws = &impl.draws;
+        in.posed = posed;
+        ShadowRequest request{impl.actors.drawables(), -glm::normalize(options.sun.direction), options.camera.eye};
+        request.forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
+        request.size = options.shadowSize;
+        request.reach = options.shadowReach;
+        request.skipMasked = options.skipMasked;
+        in.shadow = impl.shadow.add(graph, request, posed, impl.materials);
+        if (in.shadow.image) out.color = impl.lighting.add(graph, in, impl.materials);
+        if (options.view == View::pass) {
+            const graph::ImageId shown = impl.views.addPass(graph, options.passView, view);
+            if (shown) out.color = shown;
+        }
+    }
+    if (!out.color) out.color = impl.views.add(graph, options.view, g, visibility, view);
+    return out;
+}
+
+}  // namespace obscura::render

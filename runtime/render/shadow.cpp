@@ -1,0 +1,163 @@
+#include "render/shadow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace obscura::render {
+namespace {
+
+using gpu::Status;
+
+// Reversed depth: farther is smaller. The slope covers what a texel spans; the rest is done where the map is read.
+constexpr float kDepthBiasSlope = -1.5f;
+
+glm::mat4 lightAxes(const glm::vec3& toSun) {
+    const glm::vec3 aside = std::abs(toSun.y) < 0.95f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 x = glm::normalize(glm::cross(aside, toSun)), y = glm::cross(toSun, x);
+    return glm::transpose(glm::mat4(glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(toSun, 0), glm::vec4(0, 0, 0, 1)));
+}
+
+scene::Bounds seenAlong(const glm::mat4& axes, const scene::Bounds& box) {
+    scene::Bounds out;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
+        out.add(glm::vec3(axes * glm::vec4(p, 1.0f)));
+    }
+    return out;
+}
+
+// The square and depth range of the map in light space. It moves by whole texels and grows by steps, so that shadows of
+// things at rest do not crawl while others move.
+struct Fit { glm::vec2 centre; float side, low, high; };
+Fit fit(const scene::Bounds& world, const glm::vec3& around, float reach, uint32_t size) {
+    const glm::vec3 extent = world.max - world.min;
+    float side = std::max({extent.x, extent.y, 0.1f});
+    glm::vec2 centre(world.centre());
+    if (side > 2.0f * reach) {
+        side = 2.0f * reach;
+        centre = glm::vec2(around);
+    } else {
+        side = std::exp2(std::ceil(std::log2(side * 1.02f) * 4.0f) / 4.0f);
+    }
+    const float texel = side / float(size);
+    const float step = texel * 16.0f;
+    return {glm::round(centre / texel) * texel, side, (std::floor(world.min.z / step) - 1.0f) * step, (std::ceil(world.max.z / step) + 1.0f) * step};
+}
+
+struct Fingerprint {
+    uint64_t value = 14695981039346656037ull;
+    void add(const void* data, size_t bytes) {
+        for (size_t i = 0; i < bytes; ++i) value = (value ^ static_cast<const uint8_t*>(data)[i]) * 1099511628211ull;
+    }
+};
+
+}  // namespace
+
+Status Shadow::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Shadow& out) {
+    out.m_device = &device;
+    gpu::GraphicsState state;
+    state.depthFormat = VK_FORMAT_D32_SFLOAT;
+    state.depthTest = state.depthWrite = true;
+    state.depthBiasSlope = kDepthBiasSlope;
+    state.vertexBindings = {{0, kPositionBytes, VK_VERTEX_INPUT_RATE_VERTEX}};
+    state.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
+    Status status = gpu::Program::graphics(device, shaders, "scene/shadow.vert", "", state, {}, out.m_solid);
+    if (status != Status::ok) return status;
+    state.vertexBindings.push_back({1, kCoordsBytes, VK_VERTEX_INPUT_RATE_VERTEX});
+    state.vertexAttributes.push_back({1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
+    state.vertexAttributes.push_back({2, 1, VK_FORMAT_R16G16B16A16_SFLOAT, 16});
+    return gpu::Program::graphics(device, shaders, "scene/shadow_masked.vert", "scene/shadow_masked.frag", state, {}, out.m_masked);
+}
+
+Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const Deform::Posed& posed, Materials& materials) {
+    if (!m_image || m_image.desc().width != request.size) {
+        gpu::Image fresh;
+        const gpu::ImageDesc desc{VK_FORMAT_D32_SFLOAT, request.size, request.size, 1, 1,
+                                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
+        if (gpu::Image::create(*m_device, desc, "shadow map", fresh) != Status::ok) return {};
+        m_image = std::move(fresh);
+        m_drawn = 0;
+    }
+
+    scene::Bounds world;  // in light space
+    const glm::mat4 axes = lightAxes(request.toSun);
+    for (const Drawable& caster : request.casters) {
+        if (caster.bounds.empty) continue;
+        const scene::Bounds box = seenAlong(axes, caster.bounds);
+        world.add(box.min);
+        world.add(box.max);
+    }
+    if (world.empty) world.add(glm::vec3(0.0f));
+    const glm::vec3 around = glm::vec3(axes * glm::vec4(request.eye + request.forward * (0.7f * request.reach), 1.0f));
+    const Fit f = fit(world, around, request.reach, request.size);
+    glm::mat4 clip(0.0f);
+    clip[0][0] = clip[1][1] = 2.0f / f.side;
+    clip[2][2] = 1.0f / (f.high - f.low);
+    clip[3] = glm::vec4(-f.centre * (2.0f / f.side), -f.low / (f.high - f.low), 1.0f);
+    clip = clip * axes;
+
+    m_solidDraws.clear();
+    m_maskedDraws.clear();
+    m_items.clear();
+    Fingerprint print;
+    print.add(&clip, sizeof(clip));
+    const Frustum frustum(clip);
+    std::vector<const Drawable*> casters[2];
+    for (const Drawable& caster : request.casters) {
+        const scene::AlphaMode mode = caster.primitive->material->alphaMode;
+        if (mode == scene::AlphaMode::blend || (request.skipMasked && mode == scene::AlphaMode::mask) || !frustum.meets(caster.bounds)) continue;
+        const uint32_t serials[] = {caster.model->serial, caster.primitive->serial};
+        print.add(serials, sizeof(serials));
+        print.add(&caster.world, sizeof(caster.world));
+        print.add(&caster.version, sizeof(caster.version));
+        casters[mode == scene::AlphaMode::mask].push_back(&caster);
+    }
+    for (int masked = 0; masked < 2; ++masked) {
+        std::stable_sort(casters[masked].begin(), casters[masked].end(), [](const Drawable* a, const Drawable* b) {
+            return std::pair(a->model->serial, a->primitive->serial) < std::pair(b->model->serial, b->primitive->serial);
+        });
+        std::vector<Draw>& draws = masked ? m_maskedDraws : m_solidDraws;
+        for (const Drawable* caster : casters[masked]) {
+            const uint32_t item = uint32_t(m_items.size());
+            const glm::mat4 matrix = clip * caster->world;
+            m_items.push_back({{rowOf(matrix, 0), rowOf(matrix, 1), rowOf(matrix, 2)}});
+            const bool again = !draws.empty() && draws.back().first->primitive == caster->primitive && caster->posed == kNotPosed &&
+                               draws.back().first->posed == kNotPosed;
+            if (again) ++draws.back().count;
+            else draws.push_back({caster, item, 1});
+        }
+    }
+    if (m_items.empty()) m_items.push_back({});
+
+    graph::External external;
+    external.image = m_image.handle();
+    external.view = m_image.view();
+    external.desc = m_image.desc();
+    external.layout = m_drawn ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED;
+    external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    Map map;
+    map.image = graph.import("shadow map", external);
+    map.texel = f.side / float(request.size);
+    const glm::mat4 toUnit(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0, 1);
+    map.fromWorld = toUnit * clip;
+    if (m_drawn == print.value) return map;
+
+    graph::Pass& pass = graph.pass("shadow", m_solid).read(graph.upload("shadow items", m_items.data(), m_items.size() * sizeof(m_items[0])));
+    if (posed.now) pass.use(posed.now, graph::Access::vertex);
+    pass.depth(map.image, 0.0f).record([this, posed, &materials](const graph::PassContext& c) {
+        const gpu::Api& vk = c.device.vk();
+        recordDraws(c.cmd, vk, m_solidDraws, posed.buffers, kPosition, false, nullptr);
+        if (m_maskedDraws.empty()) return;
+        m_masked.refresh();
+        vk.CmdBindPipeline(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_masked.pipeline());
+        recordDraws(c.cmd, vk, m_maskedDraws, posed.buffers, kPosition | kCoords, false, [&](const ModelGpu& model, uint32_t material) {
+            const VkDescriptorSet set = materials.get(model, material, m_masked);
+            vk.CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_masked.layout(), 1, 1, &set, 0, nullptr);
+        });
+    });
+    m_drawn = print.value;
+    return map;
+}
+
+}  // namespace obscura::render

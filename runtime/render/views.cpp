@@ -1,0 +1,99 @@
+#include "render/views.h"
+
+#include "post/view.h"
+
+namespace obscura::render {
+namespace {
+
+constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion",
+                                  "base-color", "roughness", "metalness", "emission", "pass"};
+
+// How to show an image of which only the format is known.
+uint32_t modeOf(VkFormat format, const std::string& name) {
+    switch (format) {
+        case VK_FORMAT_D32_SFLOAT:
+        case VK_FORMAT_D16_UNORM: return shared::kViewDeviceDepth;
+        case VK_FORMAT_R32_UINT: return name.find("normal") != std::string::npos ? shared::kViewNormal : shared::kViewInteger;
+        case VK_FORMAT_R8_UINT:
+        case VK_FORMAT_R16_UINT:
+        case VK_FORMAT_R32G32_UINT:
+        case VK_FORMAT_R32G32B32A32_UINT: return shared::kViewInteger;
+        case VK_FORMAT_R32_SFLOAT: return name.find("depth") != std::string::npos ? shared::kViewLinearDepth : shared::kViewGrey;
+        case VK_FORMAT_R8_UNORM:
+        case VK_FORMAT_R16_UNORM:
+        case VK_FORMAT_R16_SFLOAT: return shared::kViewGrey;
+        case VK_FORMAT_R16G16_SFLOAT: return name.find("motion") != std::string::npos ? shared::kViewMotion : shared::kViewValues;
+        case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case VK_FORMAT_B10G11R11_UFLOAT_PACK32: return shared::kViewColor;
+        default: return shared::kViewValues;
+    }
+}
+
+}  // namespace
+
+const char* name(View view) { return kNames[size_t(view)]; }
+
+bool parseView(const std::string& text, View& view, std::string& pass) {
+    if (text.starts_with("pass:") && text.size() > 5) {
+        view = View::pass;
+        pass = text.substr(5);
+        return true;
+    }
+    for (const View known : kViews)
+        if (text == name(known)) {
+            view = known;
+            return true;
+        }
+    return false;
+}
+
+gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Views& out) {
+    const gpu::Status status = gpu::Program::compute(device, shaders, "post/view_float.comp", {}, out.m_float);
+    return status == gpu::Status::ok ? gpu::Program::compute(device, shaders, "post/view_uint.comp", {}, out.m_uint) : status;
+}
+
+graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame) {
+    const gpu::ImageDesc& desc = graph.desc(source);
+    shared::ViewBlock block{};
+    block.visible = frame.visible;
+    block.mode = mode;
+    block.linearize = frame.linearize;
+    // Images of the whole picture's shape lose their guard band, others are stretched.
+    const float wholeX = float(desc.width) / float(frame.size.x), wholeY = float(desc.height) / float(frame.size.y);
+    const bool whole = (desc.width != frame.visible.x || desc.height != frame.visible.y) && std::abs(wholeX / wholeY - 1.0f) < 0.02f;
+    if (whole) {
+        block.scale = {wholeX, wholeY};
+        block.offset = {float(frame.guard.x) * wholeX, float(frame.guard.y) * wholeY};
+    } else {
+        block.scale = {float(desc.width) / float(frame.visible.x), float(desc.height) / float(frame.visible.y)};
+    }
+    const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
+    const bool integer = mode == shared::kViewNormal || mode == shared::kViewInteger;
+    graph.pass("view", integer ? m_uint : m_float).readMip(source, 0).write(picture).constants(block).dispatch(frame.visible.x, frame.visible.y);
+    return picture;
+}
+
+graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, graph::ImageId visibility, const shared::View& frame) {
+    switch (view) {
+        case View::normals: return show(graph, g.geometric, shared::kViewNormal, frame);
+        case View::shadedNormals: return show(graph, g.shaded, shared::kViewNormal, frame);
+        case View::depth: return show(graph, g.depth, shared::kViewDeviceDepth, frame);
+        case View::motion: return show(graph, g.motion, shared::kViewMotion, frame);
+        case View::baseColor: return show(graph, g.baseColor, shared::kViewColor, frame);
+        case View::roughness: return show(graph, g.material, shared::kViewGrey, frame);
+        case View::metalness: return show(graph, g.material, shared::kViewSecond, frame);
+        case View::emission: return show(graph, g.emission, shared::kViewColor, frame);
+        default: return show(graph, visibility, shared::kViewGrey, frame);
+    }
+}
+
+graph::ImageId Views::addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame) {
+    for (const graph::Graph::Written& written : graph.written()) {
+        if (written.pass != pass || graph.desc(written.image).depth > 1) continue;
+        return show(graph, written.image, modeOf(graph.desc(written.image).format, graph.name(written.image)), frame);
+    }
+    return {};
+}
+
+}  // namespace obscura::render

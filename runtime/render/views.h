@@ -1,0 +1,25 @@
+// Pictures of images that are no pictures: G-buffer channels, visibility, whatever a pass wrote.
+#pragma once
+
+#include "graph/graph.h"
+#include "render/gbuffer.h"
+#include "render/renderer.h"
+#include "shared/view.h"
+
+namespace obscura::render {
+
+class Views {
+public:
+    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Views& out);
+    // Any of kViews but final. Values mean: normals n/2 + 1/2; depth near bright, logarithmic; motion grey at rest;
+    // visibility, roughness and metalness as they are (byte = 255 * value); colours sRGB-encoded.
+    graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, graph::ImageId visibility, const shared::View& frame);
+    // What the pass of that name wrote first; none when no such pass has been added or its image cannot be shown.
+    graph::ImageId addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame);
+
+private:
+    graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
+    gpu::Program m_float, m_uint;
+};
+
+}  // namespace obscura::render

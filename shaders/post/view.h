@@ -1,0 +1,33 @@
+// How a picture is made of an image: which texels, and what their values mean.
+#ifndef OBSCURA_POST_VIEW_H
+#define OBSCURA_POST_VIEW_H
+#include "shared/types.h"
+OBSCURA_SHARED_BEGIN
+
+struct ViewBlock {
+    uvec2 visible;   // size of the picture, px
+    vec2 scale;      // source texel = (pixel + 0.5) * scale + offset
+    vec2 offset;
+    uint mode;       // kView... below
+    float exposure;
+    vec4 linearize;  // as shared/view.h, for device depth
+};
+OBSCURA_SHARED_SIZE(ViewBlock, 48);
+
+#ifdef __cplusplus
+inline constexpr
+#else
+const
+#endif
+uint kViewColor = 0,      // linear colour, sRGB-encoded
+     kViewGrey = 1,       // first channel, stored as it is
+     kViewSecond = 2,     // second channel, stored as it is
+     kViewDeviceDepth = 3,
+     kViewLinearDepth = 4,
+     kViewMotion = 5,
+     kViewNormal = 6,     // 32-bit packed normals
+     kViewInteger = 7,    // any other integers: their low bits
+     kViewValues = 8;     // four channels, stored as they are
+
+OBSCURA_SHARED_END
+#endif

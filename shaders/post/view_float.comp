@@ -1,0 +1,38 @@
+// A float or normalized image as a picture.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "post/view.h"
+#include "post/srgb.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0) uniform sampler2D source;
+layout(set = 0, binding = 1, rgba8) writeonly uniform image2D picture;
+
+layout(push_constant) uniform Constants { ViewBlock view; };
+
+// Near is bright: an octave of distance is a fourteenth of the range, 1/8 m to 2 km.
+vec3 depthColor(float depth) { return vec3(clamp(1.0 - (log2(max(depth, 1e-6)) + 3.0) / 14.0, 0.0, 1.0)); }
+
+vec3 valueOf(vec4 texel) {
+    switch (view.mode) {
+        case kViewColor: return encodeSrgb(clamp(texel.rgb, 0.0, 1.0));
+        case kViewSecond: return texel.ggg;
+        case kViewDeviceDepth: {
+            vec4 l = view.linearize;
+            return texel.x <= 0.0 ? vec3(0.0) : depthColor((texel.x * l.x + l.y) / (texel.x * l.z + l.w));
+        }
+        case kViewLinearDepth: return depthColor(texel.x);
+        // Grey stands still; red is left-right, green up-down, 32 px saturate. A root shows small ones.
+        case kViewMotion: return vec3(0.5 + 0.5 * sign(texel.xy) * sqrt(min(abs(texel.xy) / 32.0, 1.0)), 0.5);
+        case kViewValues: return texel.rgb;
+        default: return texel.rrr;
+    }
+}
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, ivec2(view.visible)))) return;
+    ivec2 from = clamp(ivec2((vec2(at) + 0.5) * view.scale + view.offset), ivec2(0), textureSize(source, 0) - 1);
+    imageStore(picture, at, vec4(clamp(valueOf(texelFetch(source, from, 0)), 0.0, 1.0), 1.0));
+}

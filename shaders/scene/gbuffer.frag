@@ -1,0 +1,47 @@
+// One opaque or masked surface into the G-buffer.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "scene/frame.h"
+#include "scene/material.glsl"
+#include "scene/surface.glsl"
+#include "shared/octahedral.glsl"
+
+layout(constant_id = 0) const bool kMasked = false;
+
+layout(set = 0, binding = 0) uniform FrameUniform { SceneFrame frame; };
+
+layout(location = 0) in vec3 inEye;
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec4 inTangent;
+layout(location = 3) in vec4 inUv;
+layout(location = 4) in vec4 inColor;
+layout(location = 5) in vec3 inPrevious;
+layout(location = 6) flat in float inStill;
+
+layout(location = 0) out uint outGeometric;
+layout(location = 1) out uint outShaded;
+layout(location = 2) out vec2 outMotion;
+layout(location = 3) out vec4 outBaseColor;  // a: occlusion map
+layout(location = 4) out vec4 outMaterial;   // roughness, metalness, unlit, unused
+layout(location = 5) out vec4 outEmission;
+
+vec2 motion() {
+    if (inStill > 0.5) return vec2(0.0);
+    if (inPrevious.z <= 0.0) return vec2(kFarAway);  // was behind the camera: nothing to find there
+    vec2 before = (inPrevious.xy / inPrevious.z + 1.0) * frame.viewport.zw;
+    return clamp(before - gl_FragCoord.xy, -kFarAway, kFarAway);
+}
+
+void main() {
+    vec3 geometric = geometricNormal(inEye, inNormal, frame.orthographic.x > 0.5);  // before discard: needs whole quads
+    vec4 color = baseColorOf(inUv, inColor);
+    if (kMasked && color.a < material.emission.w) discard;
+    vec2 metalRough = metalRoughOf(inUv);
+
+    outGeometric = packNormal(geometric);
+    outShaded = packNormal(normalOf(inUv, inNormal, inTangent, gl_FrontFacing ? 1.0 : -1.0));
+    outMotion = motion();
+    outBaseColor = vec4(color.rgb, occlusionOf(inUv));
+    outMaterial = vec4(metalRough.y, metalRough.x, material.flags.y != 0u ? 1.0 : 0.0, 0.0);
+    outEmission = vec4(emissionOf(inUv), 1.0);
+}

@@ -1,0 +1,101 @@
+// How light leaves a surface: GGX and Lambert for the sun, a hemisphere and its reflection for the sky.
+#ifndef OBSCURA_SCENE_SHADE_GLSL
+#define OBSCURA_SCENE_SHADE_GLSL
+#include "scene/lighting.h"
+
+const float kPi = 3.14159265;
+
+struct Surface {
+    vec3 position;    // eye space, metres
+    vec3 normal;      // shaded
+    vec3 geometric;
+    vec3 baseColor;
+    float roughness;
+    float metalness;
+    float visibility; // ambient light that arrives, 1: all
+};
+
+// What is seen in a direction where nothing is: a gradient over the two hemispheres' radiance.
+vec3 skyRadiance(LightingBlock light, vec3 direction) {
+    float up = dot(direction, light.up.xyz);
+    float rise = sqrt(clamp(up, 0.0, 1.0));
+    vec3 above = light.sky.rgb * mix(vec3(1.15, 1.10, 1.04), vec3(0.55, 0.75, 1.02), rise);
+    vec3 below = light.ground.rgb * mix(1.05, 0.75, clamp(-up * 1.5, 0.0, 1.0));
+    return mix(below, above, smoothstep(-0.06, 0.03, up));
+}
+
+vec3 hemisphere(LightingBlock light, vec3 normal) {
+    return mix(light.ground.rgb, light.sky.rgb, 0.5 + 0.5 * dot(normal, light.up.xyz));
+}
+
+// Two 1D fits for the split sum's second term [Karis 2014, Physically Based Shading on Mobile].
+vec3 environmentBrdf(vec3 f0, float roughness, float nv) {
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a004 = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
+    vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
+    return f0 * ab.x + ab.y;
+}
+
+// [Lagarde and de Rousiers 2014, Moving Frostbite to PBR, 4.10.2]
+float specularVisibility(float visibility, float nv, float roughness) {
+    return clamp(pow(nv + visibility, exp2(-16.0 * roughness - 1.0)) - 1.0 + visibility, 0.0, 1.0);
+}
+
+// GGX with height-correlated Smith [Walter 2007; Heitz 2014] and Schlick's Fresnel, times n.l.
+vec3 sunReflection(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float roughness) {
+    float nl = max(dot(n, l), 0.0);
+    float nv = max(dot(n, v), 1e-4);
+    vec3 h = normalize(l + v);
+    float nh = clamp(dot(n, h), 0.0, 1.0), vh = clamp(dot(v, h), 0.0, 1.0);
+    float a = max(roughness * roughness, 2e-3);
+    float a2 = a * a;
+    float d = nh * nh * (a2 - 1.0) + 1.0;
+    float distribution = a2 / (kPi * d * d);
+    float smith = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1e-6);
+    float s = 1.0 - vh;
+    float s2 = s * s;
+    vec3 fresnel = f0 + (1.0 - f0) * (s2 * s2 * s);
+    return (diffuse / kPi * (1.0 - fresnel) + fresnel * (distribution * smith)) * nl;
+}
+
+// Part of the sun that arrives: 3x3 texels, bilinear in between, by four gathers.
+float sunlight(LightingBlock light, sampler2DShadow shadow, vec3 position, vec3 geometric) {
+    float facing = dot(geometric, light.toSun.xyz);
+    if (facing <= 0.0) return 0.0;
+    // A step along the normal that covers what a texel's filter width hides at this slope.
+    float slope = sqrt(max(1.0 - facing * facing, 0.0));
+    vec3 lifted = position + geometric * (light.toSun.w * (0.35 + 1.65 * slope));
+    vec3 s = (light.shadowFromEye * vec4(lifted, 1.0)).xyz;
+    if (any(lessThan(s.xy, vec2(0.0))) || any(greaterThan(s.xy, vec2(1.0)))) return 1.0;
+    float reference = clamp(s.z, 0.0, 1.0);
+    float size = light.up.w;
+    vec2 texel = s.xy * size - 0.5;
+    vec2 base = floor(texel);
+    vec2 f = texel - base;
+    vec2 corner = (base + 0.0) / size;  // between texels base-1 and base
+    vec4 a = textureGather(shadow, corner, reference);
+    vec4 b = textureGather(shadow, corner + vec2(2.0, 0.0) / size, reference);
+    vec4 c = textureGather(shadow, corner + vec2(0.0, 2.0) / size, reference);
+    vec4 d = textureGather(shadow, corner + vec2(2.0, 2.0) / size, reference);
+    // Columns weigh (1-f, 1, 1, f). A gather returns (0,1) (1,1) (1,0) (0,0).
+    vec4 w = vec4(1.0 - f.x, 1.0, 1.0, f.x);
+    float top = dot(w, vec4(a.w, a.z, b.w, b.z)) * (1.0 - f.y) + dot(w, vec4(a.x, a.y, b.x, b.y));
+    float bottom = dot(w, vec4(c.w, c.z, d.w, d.z)) + dot(w, vec4(c.x, c.y, d.x, d.y)) * f.y;
+    return (top + bottom) / 9.0;
+}
+
+vec3 shade(LightingBlock light, Surface s, float sun) {
+    vec3 v = towardsEye(light.view, s.position);
+    float nv = clamp(dot(s.normal, v), 1e-3, 1.0);
+    vec3 f0 = mix(vec3(0.04), s.baseColor, s.metalness);
+    vec3 diffuse = s.baseColor * (1.0 - s.metalness);
+    vec3 color = diffuse * hemisphere(light, s.normal) * s.visibility;
+    // A rough mirror sees the whole hemisphere around its reflection.
+    vec3 r = reflect(-v, s.normal);
+    vec3 mirrored = mix(skyRadiance(light, r), hemisphere(light, r), s.roughness * s.roughness);
+    color += mirrored * environmentBrdf(f0, s.roughness, nv) * specularVisibility(s.visibility, nv, s.roughness);
+    if (sun > 0.0) color += sunReflection(s.normal, v, light.toSun.xyz, diffuse, f0, s.roughness) * light.sun.rgb * sun;
+    return color;
+}
+
+#endif
