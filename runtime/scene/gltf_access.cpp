@@ -89,8 +89,8 @@ void substitute(Context& context, const Asset& asset, int index, const Layout& l
     std::vector<uint32_t> where(count);
     Layout scalar;
     scalar.columnBytes = scalar.elementBytes = bytesOf(indices.componentType);
-    copyAny(indices, scalar, asset.views[size_t(sparse.indices.bufferView)].data() + sparse.indices.byteOffset, scalar.elementBytes, count, where.data());
-    const uint8_t* values = asset.views[size_t(sparse.values.bufferView)].data() + sparse.values.byteOffset;
+    copyAny(indices, scalar, viewOf(context, asset, sparse.indices.bufferView).data() + sparse.indices.byteOffset, scalar.elementBytes, count, where.data());
+    const uint8_t* values = viewOf(context, asset, sparse.values.bufferView).data() + sparse.values.byteOffset;
     for (size_t i = 0; i < count; ++i) {
         if (where[i] >= accessor.count || (i > 0 && where[i] <= where[i - 1]))
             context.fail(pointer + "/indices", fmt::format("index {} at {} is out of range or out of order", where[i], i));
@@ -114,7 +114,7 @@ std::vector<To> read(Context& context, const Asset& asset, int index) {
     if (accessor.bufferView >= 0) {
         const size_t view = size_t(accessor.bufferView);
         const size_t stride = asset.gltf->bufferViews[view].byteStride;
-        copyAny(accessor, layout, asset.views[view].data() + accessor.byteOffset, stride != 0 ? stride : layout.elementBytes, accessor.count, out.data());
+        copyAny(accessor, layout, viewOf(context, asset, accessor.bufferView).data() + accessor.byteOffset, stride != 0 ? stride : layout.elementBytes, accessor.count, out.data());
     }
     substitute(context, asset, index, layout, out);
     return out;

@@ -38,6 +38,12 @@ size_t elementBytes(std::string_view type, int componentType) {
     return size_t(componentsOf(type)) * size;
 }
 
+size_t lastElementBytes(std::string_view type, int componentType) {
+    const size_t columns = type == "MAT2" ? 2 : type == "MAT3" ? 3 : 1;
+    const size_t column = elementBytes(type, componentType) / columns;
+    return (columns - 1) * column + size_t(componentsOf(type)) / columns * bytesOf(componentType);
+}
+
 namespace {
 
 constexpr std::array kSupported{kDraco, kMeshopt, kTransform, kUnlit, kEmissiveStrength, kQuantization};
@@ -129,7 +135,6 @@ void checkBuffers(const JsonAt& root, bool hasChunk) {
         if (offset > size || length > size - offset)
             at.fail(fmt::format("bytes {} to {} reach past the end of buffer {} ({} bytes)", offset, offset + length, buffer, size));
     };
-    std::vector<bool> filled(count, false);  // by compressed views
     const auto views = root.find("bufferViews");
     for (size_t i = 0; views && i < views->expectArray().size(); ++i) {
         const JsonAt at = views->at(i).expectObject();
@@ -141,19 +146,13 @@ void checkBuffers(const JsonAt& root, bool hasChunk) {
         if (const auto stride = at.find("byteStride"); stride && stride->whole(4, 252) % 4 != 0)
             stride->fail("must be a multiple of four");
         if (const auto extensions = at.find("extensions")) extensions->expectObject();
-        if (isCompressed(at)) {
-            checkMeshopt(at, count);
-            const JsonAt packed = at.at("extensions").at(kMeshopt);
-            const size_t source = packed.at("buffer").index(count, "buffer");
-            within(packed, source);
-            if (!hasData(source)) packed.at("buffer").fail(fmt::format("buffer {} holds no data", source));
-            filled[buffer] = true;
-        } else if (!hasData(buffer)) {
-            at.at("buffer").fail(fmt::format("buffer {} has neither a uri nor a BIN chunk", buffer));
-        }
+        if (!isCompressed(at)) continue;
+        checkMeshopt(at, count);
+        const JsonAt packed = at.at("extensions").at(kMeshopt);
+        const size_t source = packed.at("buffer").index(count, "buffer");
+        within(packed, source);
+        if (!hasData(source)) packed.at("buffer").fail(fmt::format("buffer {} has neither a uri nor a BIN chunk", source));
     }
-    for (size_t i = 0; i < count; ++i)
-        if (!hasData(i) && !filled[i]) buffers->at(i).fail("has neither a uri nor a BIN chunk");
 }
 
 // `size` bytes at `offset` within a view.
@@ -164,22 +163,23 @@ void checkInView(const JsonAt& root, const JsonAt& at, size_t view, uint64_t off
                             offset, view, length));
 }
 
-void checkSparse(const JsonAt& root, const JsonAt& accessor, size_t viewCount, size_t element, size_t alignment) {
+void checkSparse(const JsonAt& root, const JsonAt& accessor, size_t viewCount, size_t element, size_t lastElement, size_t alignment) {
     const JsonAt at = accessor.at("sparse").expectObject();
     const uint64_t count = at.at("count").whole(1, accessor.at("count").whole());
-    const auto part = [&](const char* key, size_t bytes, size_t align) {
+    const auto part = [&](const char* key, size_t bytes, size_t last, size_t align) {
         const JsonAt from = at.at(key).expectObject();
         const size_t view = from.at("bufferView").index(viewCount, "bufferView");
         const uint64_t offset = from.has("byteOffset") ? from.at("byteOffset").whole() : 0;
         if (offset % align != 0) from.at("byteOffset").fail(fmt::format("must be a multiple of {}", align));
         if (root.at("bufferViews").at(view).has("byteStride")) from.at("bufferView").fail("sparse data must be tightly packed");
-        checkInView(root, from, view, offset, count * bytes, count);
+        checkInView(root, from, view, offset, (count - 1) * bytes + last, count);
     };
     const JsonAt type = at.at("indices").at("componentType");
     const uint64_t component = type.whole();
     if (component != 5121 && component != 5123 && component != 5125) type.fail("must be 5121, 5123 or 5125");
-    part("indices", bytesOf(int(component)), bytesOf(int(component)));
-    part("values", element, alignment);
+    const size_t size = bytesOf(int(component));
+    part("indices", size, size, size);
+    part("values", element, lastElement, alignment);
 }
 
 void checkAccessors(const JsonAt& root) {
@@ -203,8 +203,9 @@ void checkAccessors(const JsonAt& root) {
         if (const auto name = at.find("name")) name->text();
         const size_t size = bytesOf(int(component));
         const size_t element = elementBytes(type, int(component));
+        const size_t last = lastElementBytes(type, int(component));
         const uint64_t offset = at.has("byteOffset") ? at.at("byteOffset").whole() : 0;
-        if (at.has("sparse")) checkSparse(root, at, viewCount, element, size);
+        if (at.has("sparse")) checkSparse(root, at, viewCount, element, last, size);
         const auto view = at.find("bufferView");
         if (!view) {
             if (at.has("byteOffset")) at.at("byteOffset").fail("means nothing without a bufferView");
@@ -221,7 +222,7 @@ void checkAccessors(const JsonAt& root) {
         if (offset % size != 0 || (base + offset) % size != 0)
             at.fail(fmt::format("starts at byte {} of its buffer, not on a multiple of {}", base + offset, size));
         if (offset > JsonAt::kLargest) at.at("byteOffset").fail("is out of range");
-        checkInView(root, at, index, offset, (count - 1) * stride + element, count);
+        checkInView(root, at, index, offset, (count - 1) * stride + last, count);
     }
 }
 
@@ -244,7 +245,7 @@ void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk) 
         }
     checkBuffers(root, hasChunk);
     checkAccessors(root);
-    checkLooks(context, json);
+    checkLooks(context, json, hasChunk);
     checkMeshes(context, json);
     checkScenes(context, json);
 }

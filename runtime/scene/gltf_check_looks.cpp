@@ -88,9 +88,7 @@ void checkPrimitive(const JsonAt& root, const JsonAt& at) {
         if (attributes.has(fmt::format("JOINTS_{}", i).c_str()) != attributes.has(fmt::format("WEIGHTS_{}", i).c_str()))
             attributes.fail(fmt::format("JOINTS_{} and WEIGHTS_{} must come together", i, i));
     if (const auto indices = at.find("indices")) {
-        const size_t accessor = checkAccessor(root, *indices, {"SCALAR"}, {5121, 5123, 5125}, 0);
-        if (!root.at("accessors").at(accessor).has("bufferView") && countOf(root, "bufferViews") == 0)
-            indices->fail(fmt::format("accessor {} has no data", accessor));
+        checkAccessor(root, *indices, {"SCALAR"}, {5121, 5123, 5125}, 0);
     }
     if (const auto material = at.find("material")) material->index(countOf(root, "materials"), "material");
     if (const auto mode = at.find("mode")) mode->whole(0, 6);
@@ -121,7 +119,7 @@ void checkPrimitive(const JsonAt& root, const JsonAt& at) {
 
 }  // namespace
 
-void checkLooks(Context& context, const nlohmann::json& json) {
+void checkLooks(Context& context, const nlohmann::json& json, bool hasChunk) {
     const JsonAt root(context.file, json);
     const size_t views = countOf(root, "bufferViews");
     for (size_t i = 0; i < countOf(root, "images"); ++i) {
@@ -134,6 +132,9 @@ void checkLooks(Context& context, const nlohmann::json& json) {
             if (!at.has("mimeType")) at.fail("an image in a bufferView needs a mimeType");
             const JsonAt source = root.at("bufferViews").at(index);
             if (source.has("extensions") && source.at("extensions").has(kMeshopt)) view->fail("an image cannot lie in a compressed view");
+            const uint64_t buffer = source.at("buffer").whole();
+            if (!root.at("buffers").at(size_t(buffer)).has("uri") && !(buffer == 0 && hasChunk))
+                view->fail(fmt::format("buffer {} has neither a uri nor a BIN chunk", buffer));
         }
     }
     const auto oneOf = [](const JsonAt& at, const char* key, std::initializer_list<uint64_t> values) {

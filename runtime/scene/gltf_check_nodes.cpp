@@ -27,7 +27,7 @@ void checkCameras(const JsonAt& root) {
         constexpr double kTiny = 1e-30;
         if (type == "perspective") {
             const JsonAt lens = at.at("perspective").expectObject();
-            lens.at("yfov").number(1e-6, 3.1415926);
+            lens.at("yfov").number(1e-6);
             const double near = lens.at("znear").number(kTiny);
             if (const auto far = lens.find("zfar"); far && far->number(kTiny) <= near) far->fail("must lie beyond znear");
             if (const auto aspect = lens.find("aspectRatio")) aspect->number(kTiny);

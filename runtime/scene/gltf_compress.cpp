@@ -52,6 +52,8 @@ void unpackViews(Context& context, Asset& asset) {
         if (const auto it = views[i].extensions.find(kMeshopt); it != views[i].extensions.end()) {
             asset.unpacked[i] = unpackView(context, asset, it->second, fmt::format("/bufferViews/{}/extensions/{}", i, kMeshopt));
             asset.views.emplace_back(asset.unpacked[i]);
+        } else if (!asset.hasData[size_t(views[i].buffer)]) {
+            asset.views.emplace_back();
         } else {
             const Bytes& buffer = asset.gltf->buffers[size_t(views[i].buffer)].data;
             asset.views.emplace_back(buffer.data() + views[i].byteOffset, views[i].byteLength);
@@ -59,12 +61,19 @@ void unpackViews(Context& context, Asset& asset) {
     }
 }
 
+std::span<const uint8_t> viewOf(const Context& context, const Asset& asset, int view) {
+    const auto bytes = asset.views[size_t(view)];
+    if (bytes.empty())
+        context.fail(fmt::format("/bufferViews/{}/buffer", view), fmt::format("buffer {} has neither a uri nor a BIN chunk", asset.gltf->bufferViews[size_t(view)].buffer));
+    return bytes;
+}
+
 bool hasDraco(const tinygltf::Primitive& primitive) { return primitive.extensions.count(kDraco) != 0; }
 
 DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Primitive& primitive, const std::string& pointer) {
     const std::string where = fmt::format("{}/extensions/{}", pointer, kDraco);
     const tinygltf::Value& extension = primitive.extensions.at(kDraco);
-    const std::span<const uint8_t> view = asset.views[wholeOf(extension, "bufferView")];
+    const std::span<const uint8_t> view = viewOf(context, asset, int(wholeOf(extension, "bufferView")));
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(view.data()), view.size());
     draco::Decoder decoder;

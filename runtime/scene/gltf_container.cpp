@@ -114,8 +114,8 @@ Document readDocument(Context& context, Bytes bytes) {
     if (const uint32_t version = word(bytes, 4); version != 2)
         context.fail("", fmt::format("is binary glTF version {}; only 2 is supported", version));
     const size_t length = word(bytes, 8);
-    if (length != bytes.size())
-        context.fail("", fmt::format("says it has {} bytes but has {}; the file was cut or padded", length, bytes.size()));
+    if (length > bytes.size()) context.fail("", fmt::format("says it has {} bytes but has {}; the file was cut", length, bytes.size()));
+    if (length < bytes.size()) context.warn("", fmt::format("{} bytes after its end are ignored", bytes.size() - length));
 
     size_t offset = 12;
     for (int index = 0; offset < length; ++index) {

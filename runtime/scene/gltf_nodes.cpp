@@ -58,12 +58,17 @@ Node nodeOf(Context& context, const tinygltf::Node& from, const std::string& poi
     return node;
 }
 
-Lens lensOf(const tinygltf::Camera& from) {
+Lens lensOf(Context& context, const tinygltf::Camera& from, const std::string& pointer) {
     Lens lens;
     lens.name = from.name;
     lens.perspective = from.type == "perspective";
     if (lens.perspective) {
+        constexpr float kWidest = 2.967f;  // 170 degrees
         lens.fovY = float(from.perspective.yfov);
+        if (lens.fovY > kWidest) {
+            context.warn(pointer, fmt::format("sees {} radians, reduced to {}", lens.fovY, kWidest));
+            lens.fovY = kWidest;
+        }
         lens.aspect = float(from.perspective.aspectRatio);
         lens.nearPlane = float(from.perspective.znear);
     } else {
@@ -114,7 +119,8 @@ void addNodes(Context& context, const Asset& asset, int scene, Model& model) {
     for (size_t i = 0; i < gltf.nodes.size(); ++i) model.nodes.push_back(nodeOf(context, gltf.nodes[i], fmt::format("/nodes/{}", i)));
     for (size_t i = 0; i < model.nodes.size(); ++i)
         for (const int child : model.nodes[i].children) model.nodes[size_t(child)].parent = int(i);
-    for (const auto& camera : gltf.cameras) model.lenses.push_back(lensOf(camera));
+    for (size_t i = 0; i < gltf.cameras.size(); ++i)
+        model.lenses.push_back(lensOf(context, gltf.cameras[i], fmt::format("/cameras/{}/perspective/yfov", i)));
     for (const auto& skin : gltf.skins) model.skins.push_back(skinOf(context, asset, skin));
     chooseScene(context, gltf, scene, model);
     std::vector<bool> reached(model.nodes.size(), false);

@@ -44,26 +44,32 @@ bool keepEncoded(tinygltf::Image* image, int, std::string*, std::string*, int, i
     return true;
 }
 
-// Rewrites the checked document into what tinygltf takes without complaint. Returns accessors lent a bufferView.
+// Rewrites the checked document into what tinygltf takes without complaint. Returns the accessors lent a bufferView, a spare
+// one at the end of the list.
 std::vector<int> prepare(Json& json, Shelf& shelf) {
     json.erase("extensions");
     json.erase("extras");
-    for (size_t i = 0; json.contains("buffers") && i < json["buffers"].size(); ++i)
+    // tinygltf takes no empty file, and what stands for one is never looked at.
+    for (size_t i = 0; json.contains("buffers") && i < json["buffers"].size(); ++i) {
+        if (shelf.buffers[i].empty()) shelf.buffers[i].resize(1);
         json["buffers"][i] = {{"uri", fmt::format("buffer{}", i)}, {"byteLength", shelf.buffers[i].size()}};
+    }
     for (size_t i = 0; json.contains("images") && i < json["images"].size(); ++i) {
         Json& image = json["images"][i];
         if (!image.contains("uri")) continue;
         image["uri"] = fmt::format("image{}", i);
-        if (shelf.images[i].empty()) shelf.images[i].resize(1);  // not wanted, never decoded
+        if (shelf.images[i].empty()) shelf.images[i].resize(1);
     }
     // tinygltf refuses indices without a bufferView, which Draco and sparse accessors may have.
     std::vector<int> lent;
+    const size_t spare = json.contains("bufferViews") ? json["bufferViews"].size() : 0;
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
     for (Json& mesh : json.contains("meshes") ? json["meshes"] : Json::array())
         for (Json& primitive : mesh["primitives"]) {
             if (!primitive.contains("indices")) continue;
             Json& accessor = json["accessors"][primitive["indices"].get<size_t>()];
             if (accessor.contains("bufferView")) continue;
-            accessor["bufferView"] = 0;
+            accessor["bufferView"] = spare;
             lent.push_back(primitive["indices"].get<int>());
         }
     // Channels without a node would vanish and shift the others.
@@ -101,9 +107,12 @@ Asset parse(Context& context, Document& document, bool withImages) {
     Shelf shelf;
     shelf.buffers = readBuffers(context, document);
     shelf.images = readImages(context, json, wanted);
+    std::vector<bool> hasData;
+    for (const Bytes& buffer : shelf.buffers) hasData.push_back(!buffer.empty());
     const std::vector<int> lent = prepare(json, shelf);
 
     Asset asset;
+    asset.hasData = std::move(hasData);
     asset.gltf = std::make_unique<tinygltf::Model>();
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks({fileExists, expandPath, readWhole, writeWhole, &shelf});
@@ -118,6 +127,7 @@ Asset parse(Context& context, Document& document, bool withImages) {
         context.fail("", fmt::format("is not valid JSON: {}", exception.what()));
     }
     if (!done) context.fail("", fmt::format("cannot be read: {}", error));
+    asset.gltf->bufferViews.pop_back();
     for (const int accessor : lent) asset.gltf->accessors[size_t(accessor)].bufferView = -1;
     document.json.reset();
     return asset;

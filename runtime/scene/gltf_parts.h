@@ -61,7 +61,8 @@ struct Asset {
     ~Asset();
     Asset(Asset&&) noexcept;
     std::unique_ptr<tinygltf::Model> gltf;
-    std::vector<std::span<const uint8_t>> views;  // per bufferView, into buffers or `unpacked`
+    std::vector<bool> hasData;                    // per buffer; without, it only makes room for compressed views
+    std::vector<std::span<const uint8_t>> views;  // per bufferView, into buffers or `unpacked`; empty without data
     std::vector<Bytes> unpacked;
 };
 
@@ -71,15 +72,16 @@ Document readDocument(Context& context, Bytes bytes);
 
 // gltf_check.cpp, gltf_check_looks.cpp, gltf_check_nodes.cpp
 void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk);
-void checkLooks(Context& context, const nlohmann::json& json);    // images, samplers, textures, materials
+void checkLooks(Context& context, const nlohmann::json& json, bool hasChunk);  // images, samplers, textures, materials
 void checkMeshes(Context& context, const nlohmann::json& json);   // primitives' references and counts
 void checkScenes(Context& context, const nlohmann::json& json);   // cameras, nodes, skins, scenes, animations
 int componentsOf(std::string_view type);                          // "VEC3" -> 3, 0 when unknown
 size_t bytesOf(int componentType);                                // 5126 -> 4, 0 when unknown
 size_t elementBytes(std::string_view type, int componentType);    // matrix columns padded to four bytes
+size_t lastElementBytes(std::string_view type, int componentType);  // an accessor may end before its last padding
 
-// gltf_files.cpp: the bytes behind each buffer and image, in order. Buffers come cut to their byteLength; a buffer that
-// only holds room for decompressed data is one byte. Images not in `wanted` are only looked for.
+// gltf_files.cpp: the bytes behind each buffer and image, in order. Buffers come cut to their byteLength, empty where
+// the file gives them no data. Images not in `wanted` are only looked for.
 std::vector<Bytes> readBuffers(Context& context, Document& document);
 std::vector<Bytes> readImages(Context& context, const nlohmann::json& json, const std::vector<bool>& wanted);
 
@@ -93,6 +95,7 @@ struct DracoMesh {
     std::map<std::string, std::vector<float>> attributes;  // by glTF name; components as the accessor has them
 };
 void unpackViews(Context& context, Asset& asset);
+std::span<const uint8_t> viewOf(const Context& context, const Asset& asset, int view);  // fails when it has no data
 bool hasDraco(const tinygltf::Primitive& primitive);
 DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Primitive& primitive, const std::string& pointer);
 
