@@ -57,8 +57,27 @@ float reach(const Falloff& falloff) {
     return falloff.kind == FalloffKind::ramp ? falloff.end : falloff.length;
 }
 
+// Coefficients in d: those in x = d / length, divided by powers of the length.
 shared::FalloffBlock falloffBlock(const Falloff& falloff) {
-    return {uint32_t(falloff.kind), falloff.length, falloff.end, reach(falloff)};
+    const double s = 1.0 / falloff.length;
+    shared::FalloffBlock block{1, 0, 0, 0, 0, 0, 0, reach(falloff)};
+    switch (falloff.kind) {
+        case FalloffKind::exponential: block.decay = float(1.4426950408889634 * s); break;
+        case FalloffKind::linear: block.c1 = float(-s); break;
+        case FalloffKind::quadratic: block.c2 = float(-s * s); break;
+        case FalloffKind::wendland:  // (1-x)^4 (4x+1) = 1 - 10 x^2 + 20 x^3 - 15 x^4 + 4 x^5
+            block.c2 = float(-10.0 * s * s);
+            block.c3 = float(20.0 * s * s * s);
+            block.c4 = float(-15.0 * s * s * s * s);
+            block.c5 = float(4.0 * s * s * s * s * s);
+            break;
+        case FalloffKind::constant: break;
+        case FalloffKind::ramp:
+            block.c0 = float(falloff.end / (double(falloff.end) - falloff.length));
+            block.c1 = float(-1.0 / (double(falloff.end) - falloff.length));
+            break;
+    }
+    return block;
 }
 
 }  // namespace obscura::ao

@@ -1,33 +1,24 @@
-// The falloff rho(d): how much an occluder at d metres counts, 1 at d = 0. One type for every method and both references.
+// The falloff rho(d): how much an occluder at d metres counts, 1 at d = 0. One type for every method and both references,
+// evaluated by one formula without branches, so that every kind costs the same:
+//     rho(d) = clamp(c0 + c1 d + ... + c5 d^5, 0, 1) * 2^(-decay d)   for d <= reach, else 0
 #ifndef OBSCURA_SHARED_FALLOFF_H
 #define OBSCURA_SHARED_FALLOFF_H
 #include "types.h"
 OBSCURA_SHARED_BEGIN
 
-// kind: 0 exponential exp(-d/a); 1 linear 1-d/a; 2 quadratic 1-(d/a)^2; 3 wendland (1-d/a)^4 (4d/a+1);
-//       4 constant 1 up to a; 5 ramp 1 up to a, linear to 0 at b.
-struct FalloffBlock {
-    uint kind;
-    float a;      // metres
-    float b;      // metres, ramp only
-    float reach;  // metres; beyond it rho counts as 0
+struct FalloffBlock {  // made by ao::falloffBlock()
+    float c0, c1, c2, c3, c4, c5;  // per metre, metre^2, ...
+    float decay;                   // per metre; 0 but for exponential
+    float reach;                   // metres; beyond it rho counts as 0
 };
-OBSCURA_SHARED_SIZE(FalloffBlock, 16);
+OBSCURA_SHARED_SIZE(FalloffBlock, 32);
 
 OBSCURA_SHARED_END
 
 #ifndef __cplusplus
 float falloff(FalloffBlock f, float d) {
-    float x = d / f.a;
-    float y = max(1.0 - x, 0.0);
-    switch (f.kind) {
-        case 0u: return d < f.reach ? exp(-x) : 0.0;
-        case 1u: return y;
-        case 2u: return max(1.0 - x * x, 0.0);
-        case 3u: return y * y * y * y * (4.0 * x + 1.0);
-        case 4u: return d <= f.a ? 1.0 : 0.0;
-        default: return clamp((f.b - d) / max(f.b - f.a, 1e-6), 0.0, 1.0);
-    }
+    float polynomial = f.c0 + d * (f.c1 + d * (f.c2 + d * (f.c3 + d * (f.c4 + d * f.c5))));
+    return d <= f.reach ? clamp(polynomial, 0.0, 1.0) * exp2(-f.decay * d) : 0.0;
 }
 #endif
 

@@ -27,14 +27,14 @@ const Parameter kParameters[] = {
     {"directions", "", 1, 32, 16, true, {}, "Directions on the screen; cost grows with directions x steps."},
     {"steps", "", 1, 32, 8, true, {}, "Samples along each direction, out to the falloff's reach."},
     {"bias", "deg", 0, 60, 10, false, {}, "Angle above the tangent plane that is ignored; hides faceting, loses shallow creases."},
-    {"spacing", "", 1, 3, 1, false, {}, "Exponent of the sample distances: 1 evenly, 2 denser near the pixel."},
+    {"spacing", "", 0, 1, 0, false, {}, "How samples lie along a direction: 0 evenly as in the paper, 1 quadratically, denser near the pixel."},
     {"axis", "", 0, 1, 0, true, {kAxes, 2}, "What elevations are measured against: the camera's axis as in the paper, or each pixel's own view ray, which is right off the picture's centre."},
     {"sample_test", "", 0, 1, 0, true, {}, "1: a sample must stand above the tangent plane by the bias itself; nearest-texel samples then raise no horizon on a bare plane."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
     {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
 };
 const Setting kFast[] = {{"directions", 8}, {"steps", 4}};
-const Setting kTuned[] = {{"spacing", 1.5f}, {"axis", 1}, {"sample_test", 1}};
+const Setting kTuned[] = {{"spacing", 0.6f}, {"axis", 1}, {"sample_test", 1}};
 const Preset kPresets[] = {
     {"default", "16 directions x 8 steps, as in the paper.", {}},
     {"8x4", "A quarter of the samples.", {kFast, 2}},

@@ -5,7 +5,7 @@
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, std140) uniform ViewBlock { View view; };
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
@@ -14,6 +14,7 @@ layout(set = 0, binding = 4, r16f) uniform writeonly image2D result;
 const float kPlane = 200.0;  // per unit of plane distance over depth: 40 per metre at 5 m, at any world scale
 
 void main() {
+    View view = viewBlock;  // a copy, so that the loop holds it in registers
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 guard = ivec2(view.guard);
@@ -29,11 +30,13 @@ void main() {
     for (int y = -2; y <= 2; ++y) {
         for (int x = -2; x <= 2; ++x) {
             ivec2 q = p + ivec2(x, y);
-            if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, ivec2(view.visible)))) continue;
+            bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, ivec2(view.visible)));
+            q = clamp(q, ivec2(0), ivec2(view.visible) - 1);
             float zq = imageLoad(depth, q + guard).x;
             vec3 there = eyePosition(view, vec2(q + guard) + 0.5, zq);
             float plane = abs(dot(there - here, n));
             float w = kernel[abs(x)] * kernel[abs(y)] * max(0.0, dot(n, unpackNormal(imageLoad(normals, q + guard).x))) / (1.0 + kPlane * plane / z);
+            w = inside ? w : 0.0;
             sum += w * imageLoad(source, q).x;
             weights += w;
         }

@@ -6,17 +6,17 @@
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, std140) uniform ViewBlock { View view; };
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Constants {
-    FalloffBlock rho;
+    FalloffBlock falloffBlock;
     uint directions;
     uint steps;
     float bias;       // radians
     float maxPixels;  // longest reach, px
-    float spacing;    // sample i lies at ((i + offset) / steps)^spacing of the reach
+    float spacing;    // samples lie at mix(t, t^2, spacing) of the reach, t = (i + offset) / steps
     uint viewAxis;    // elevations over the plane across 0: the camera's axis, as the paper; 1: the pixel's own view ray
     uint sampleTest;  // 1: a sample counts only when it stands above the tangent plane by the bias itself
 };
@@ -29,7 +29,7 @@ const float kOffset[16] = float[](5, 13, 7, 15, 9, 1, 11, 3, 6, 14, 4, 12, 10, 2
 
 // Sine of the elevation, above the plane across the view direction, of the tangent plane towards the next pixel: where
 // that pixel's view ray meets the plane.
-float tangentSine(vec3 here, vec3 n, vec3 v, vec2 pixel, vec2 direction) {
+float tangentSine(View view, vec3 here, vec3 n, vec3 v, vec2 pixel, vec2 direction) {
     vec3 ahead = eyePosition(view, pixel + direction, -here.z);
     vec3 t;
     if (view.orthographic > 0.5) {
@@ -44,6 +44,9 @@ float tangentSine(vec3 here, vec3 n, vec3 v, vec2 pixel, vec2 direction) {
 }
 
 void main() {
+    // Copies, so that the loops hold them in registers.
+    View view = viewBlock;
+    FalloffBlock rho = falloffBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
@@ -67,28 +70,29 @@ void main() {
     float offset = (kOffset[tile] + 0.5) / 16.0;
     float stepPixels = max(reach / float(steps), 1.0);
     float span = stepPixels * float(steps);
+    float inverseSteps = 1.0 / float(steps);
     ivec2 last = ivec2(view.size) - 1;
+    vec2 size = vec2(view.size);
 
     float blocked = 0.0;
     for (uint k = 0u; k < directions; ++k) {
         float angle = (float(k) + rotation) * kTwoPi / float(directions);
         vec2 direction = vec2(cos(angle), sin(angle));
-        float tangent = tangentSine(here, n, v, pixel, direction);
+        float tangent = tangentSine(view, here, n, v, pixel, direction);
         // sin(t + bias)
         float horizon = min(tangent * cosBias + sqrt(max(1.0 - tangent * tangent, 0.0)) * sinBias, 1.0);
         for (uint i = 0u; i < steps; ++i) {
-            float along = (float(i) + offset) / float(steps);
-            if (spacing != 1.0) along = pow(along, spacing);
-            ivec2 q = ivec2(floor(pixel + direction * max(along * span, 1.0)));
-            if (any(lessThan(q, ivec2(0))) || any(greaterThan(q, last))) break;
+            float t = (float(i) + offset) * inverseSteps;
+            vec2 at = pixel + direction * max(mix(t, t * t, spacing) * span, 1.0);
+            ivec2 q = clamp(ivec2(at), ivec2(0), last);
             vec3 d = eyePosition(view, vec2(q) + 0.5, imageLoad(depth, q).x) - here;
             float distance2 = dot(d, d);
             float inverse = inversesqrt(max(distance2, 1e-20));
             float sine = dot(d, v) * inverse;
-            if (sine > horizon && dot(d, n) * inverse >= leastRise) {
-                blocked += falloff(rho, distance2 * inverse) * (sine - horizon);
-                horizon = sine;
-            }
+            bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, size));
+            float gain = inside && dot(d, n) * inverse >= leastRise ? max(sine - horizon, 0.0) : 0.0;
+            blocked += falloff(rho, distance2 * inverse) * gain;
+            horizon += gain;
         }
     }
     imageStore(visibility, p, vec4(clamp(1.0 - blocked / float(directions), 0.0, 1.0)));
