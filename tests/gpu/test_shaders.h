@@ -1,0 +1,82 @@
+// Shaders written by a test: a temporary folder that serves as shaders/, and a library filled from it.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gpu/compiler/compile.h"
+#include "gpu/shader.h"
+
+namespace obscura::test {
+
+// An empty folder with a name of its own, gone with the object.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+        for (int i = 0; m_path.empty(); ++i) {
+            const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / ("obscura-" + std::to_string(now) + "-" + std::to_string(i));
+            if (std::filesystem::create_directories(path)) m_path = path;
+        }
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(m_path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return m_path; }
+
+private:
+    std::filesystem::path m_path;
+};
+
+class TestShaders {
+public:
+    std::filesystem::path root() const { return m_folder.path() / "shaders"; }
+
+    // Writes a file; its time always moves, whatever the clock's grain.
+    void write(const std::string& name, const std::string& text) {
+        const std::filesystem::path file = root() / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file, std::ios::binary) << text;
+        std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++m_writes));
+    }
+
+    gpu::Shader compile(const std::string& name) {
+        gpu::Shader shader;
+        std::string error;
+        std::vector<std::filesystem::path> files;
+        EXPECT_TRUE(gpu::compileShader(root() / name, root(), shader, error, files)) << error;
+        return shader;
+    }
+
+    std::string compileError(const std::string& name) {
+        gpu::Shader shader;
+        std::string error;
+        std::vector<std::filesystem::path> files;
+        EXPECT_FALSE(gpu::compileShader(root() / name, root(), shader, error, files));
+        return error;
+    }
+
+    // Writes, compiles and adds to the library, as the build would have embedded it.
+    void add(const std::string& name, const std::string& text) {
+        write(name, text);
+        const gpu::Shader shader = compile(name);
+        const std::string reflection = describe(shader);
+        const gpu::EmbeddedShader embedded{name.c_str(), shader.spirv, reflection.c_str()};
+        library.add({&embedded, 1});
+    }
+
+    gpu::ShaderLibrary library;
+
+private:
+    TemporaryFolder m_folder;
+    int m_writes = 0;
+};
+
+}  // namespace obscura::test
