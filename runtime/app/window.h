@@ -36,7 +36,8 @@ public:
     bool held(int key) const { return glfwGetKey(m_window, key) == GLFW_PRESS; }
     bool button(int button) const { return glfwGetMouseButton(m_window, button) == GLFW_PRESS; }
     glm::vec2 mouseMoved() const { return m_moved; }  // pixels since the last poll
-    void captureMouse(bool on);
+    void captureMouse(bool on);  // hides it; its movements go on without bounds
+    bool mouseCaptured() const { return m_captured; }
     void toggleFullScreen();  // on the monitor that shows most of the window; stays as it is when there is none
     GLFWwindow* handle() const { return m_window; }
 

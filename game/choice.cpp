@@ -1,0 +1,107 @@
+#include "choice.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+
+namespace obscura::game {
+
+using app::Complaint;
+
+std::vector<std::string> methodIds() {
+    std::vector<std::string> ids;
+    for (const ao::MethodInfo* info : ao::methods()) ids.emplace_back(info->id);
+    return ids;
+}
+
+std::string falloffText(const ao::Falloff& falloff) {
+    const std::string text = fmt::format("{}:{:g}", kFalloffNames[size_t(falloff.kind)], falloff.length);
+    return falloff.kind == ao::FalloffKind::ramp ? fmt::format("{}:{:g}", text, falloff.end) : text;
+}
+
+Choice::Choice() {
+    for (const ao::MethodInfo* info : ao::methods()) {
+        ao::Values values(*info);
+        if (info->presets.size() > 0) values.apply(info->presets[0]);
+        m_values.push_back(std::move(values));
+    }
+    if (m_values.empty()) throw Complaint("this build holds no obscurance method", app::kFailed);
+}
+
+void Choice::selectNext(int step) { m_current = size_t(int(m_current + m_values.size()) + step) % m_values.size(); }
+
+void Choice::select(const std::string& id) {
+    const std::vector<std::string> ids = methodIds();
+    for (size_t i = 0; i < ids.size(); ++i)
+        if (ids[i] == id) return select(i);
+    throw Complaint(fmt::format("--method {}: no such method; {}", id, app::choices(id, ids)));
+}
+
+void Choice::applyPreset(const std::string& id) {
+    std::vector<std::string> names;
+    for (const ao::Preset& preset : info().presets) {
+        names.emplace_back(preset.id);
+        if (names.back() != id) continue;
+        values() = ao::Values(info());
+        values().apply(preset);
+        return;
+    }
+    throw Complaint(fmt::format("--preset {}: {} has no such preset; {}", id, info().id, app::choices(id, names)));
+}
+
+void Choice::assign(const std::string& assignment) {
+    const size_t equals = assignment.find('=');
+    if (equals == std::string::npos)
+        throw Complaint(fmt::format("--set {}: no value; write METHOD.PARAMETER=VALUE", assignment));
+    const std::string left = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+    const size_t dot = left.find('.');
+    size_t method = m_current;
+    if (dot != std::string::npos) {
+        const std::string id = left.substr(0, dot);
+        const std::vector<std::string> ids = methodIds();
+        for (method = 0; method < ids.size() && ids[method] != id; ++method) {}
+        if (method == ids.size()) throw Complaint(fmt::format("--set {}: no method {}; {}", assignment, id, app::choices(id, ids)));
+    }
+    const std::string name = dot == std::string::npos ? left : left.substr(dot + 1);
+    const ao::MethodInfo& info = m_values[method].info();
+    std::vector<std::string> names;
+    for (const ao::Parameter& parameter : info.parameters) {
+        names.emplace_back(parameter.id);
+        if (names.back() != name) continue;
+        for (size_t i = 0; i < parameter.choices.size(); ++i)
+            if (text == parameter.choices[i]) {
+                m_values[method].set(parameter.id, float(i));
+                return;
+            }
+        float value = 0.0f;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+            std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
+            throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is no number; {} goes from {:g} to {:g}", assignment, text, name,
+                                                        parameter.minimum, parameter.maximum)
+                                          : fmt::format("--set {}: {}", assignment, app::choices(text, words)));
+        }
+        if (value < parameter.minimum || value > parameter.maximum || (parameter.integer && value != std::floor(value)))
+            throw Complaint(fmt::format("--set {}: {} is a {} from {:g} to {:g}", assignment, name,
+                                        parameter.integer ? "whole number" : "number", parameter.minimum, parameter.maximum));
+        m_values[method].set(parameter.id, value);
+        return;
+    }
+    if (names.empty()) throw Complaint(fmt::format("--set {}: {} has no parameters", assignment, info.id));
+    throw Complaint(fmt::format("--set {}: {} has no parameter {}; {}", assignment, info.id, name, app::choices(name, names)));
+}
+
+void Choice::setFalloff(const std::string& text) {
+    if (ao::parseFalloff(text.c_str(), falloff)) return;
+    const std::string kind = text.substr(0, text.find(':'));
+    const std::vector<std::string> kinds(std::begin(kFalloffNames), std::end(kFalloffNames));
+    for (const std::string& known : kinds)
+        if (kind == known)
+            throw Complaint(fmt::format("--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
+    throw Complaint(fmt::format("--falloff {}: no such kind; {}", text, app::choices(kind, kinds)));
+}
+
+}  // namespace obscura::game

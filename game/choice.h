@@ -1,0 +1,39 @@
+// What is chosen among the library's methods: one set of values for each, which of them runs, and how far occluders reach.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ao/method.h"
+
+namespace obscura::game {
+
+class Choice {
+public:
+    Choice();
+    const ao::Values& values() const { return m_values[m_current]; }
+    ao::Values& values() { return m_values[m_current]; }
+    const ao::MethodInfo& info() const { return values().info(); }
+    size_t current() const { return m_current; }
+    static size_t count() { return ao::methods().size(); }
+    void select(size_t index) { m_current = index; }
+    void selectNext(int step);
+
+    // From text, as on a command line; throw app::Complaint that lists what there is.
+    void select(const std::string& id);
+    void applyPreset(const std::string& id);        // to the selected method, from its initial values on
+    void assign(const std::string& assignment);     // "METHOD.PARAMETER=VALUE", or "PARAMETER=VALUE" for the selected one
+    void setFalloff(const std::string& text);
+
+    ao::Falloff falloff;
+
+private:
+    std::vector<ao::Values> m_values;  // in the order of ao::methods()
+    size_t m_current = 0;
+};
+
+std::vector<std::string> methodIds();
+std::string falloffText(const ao::Falloff& falloff);  // as setFalloff reads it
+inline constexpr const char* kFalloffNames[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};
+
+}  // namespace obscura::game

@@ -1,0 +1,154 @@
+// Frames without a window: pictures, times and a summary.
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "app/progress.h"
+#include "jobs.h"
+#include "report.h"
+
+namespace obscura::game {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint32_t kSettling = 3;        // first frames, left out of the times
+constexpr uint32_t kReportPictures = 4;  // in summary.html
+
+// Spread over the run: its first and last frame and some between.
+std::vector<uint32_t> reportFrames(uint32_t frames) {
+    std::vector<uint32_t> list;
+    const uint32_t count = std::min(frames, kReportPictures);
+    for (uint32_t i = 0; i < count; ++i) list.push_back(count == 1 ? 0 : i * (frames - 1) / (count - 1));
+    return list;
+}
+
+void expectPass(const Options& options, const graph::Graph& graph) {
+    if (options.view != render::View::pass) return;
+    std::vector<std::string> names;
+    for (const graph::Graph::Written& written : graph.written()) {
+        if (written.pass == options.passView) return;
+        if (std::find(names.begin(), names.end(), written.pass) == names.end()) names.push_back(written.pass);
+    }
+    throw app::Complaint(fmt::format("--view pass:{}: no such pass; {}", options.passView, app::choices(options.passView, names)));
+}
+
+}  // namespace
+
+int closingWords(const Options& options, Engine& engine) {
+    if (options.validation == "off") return 0;
+    const uint64_t count = engine.device().validationMessages();
+    fmt::print("validation: {} message{}\n", count, count == 1 ? "" : "s");
+    return count ? app::kInvalidUse : 0;
+}
+
+int runHeadless(const Options& options) {
+    // Whatever can fail early does, before minutes of work.
+    if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
+    if (!options.out.empty()) app::expectFolder(options.out);
+    Stage stage(options.scene);
+    stage.camera(options.camera, options.time);
+    for (const std::string& remark : stage.remarks) fmt::print(stderr, "obscura: {}\n", remark);
+    stage.dropToys(options.toys, options.time);
+
+    Engine engine(options, nullptr);
+    engine.prepare(options, stage, options.switchTest.has_value());
+    if (options.verbose)
+        fmt::print(stderr, "obscura: {}: started in {:.2f} s (device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {})\n",
+                   engine.device().caps().deviceName, engine.started.total(), engine.started.device, engine.started.scene,
+                   engine.started.pipelines, engine.started.warmUp, engine.started.cacheFound ? "found" : "not there");
+    if (options.switchTest) {
+        switchTest(options, engine, stage);
+        return closingWords(options, engine);
+    }
+
+    const uint32_t frames = options.frames.value_or(1);
+    app::Statistics statistics(1u << 20);
+    Report report{options, engine, stage, statistics, frames, frames > kSettling ? kSettling : 0, {}};
+    const std::vector<uint32_t> shown = options.out.empty() ? std::vector<uint32_t>() : reportFrames(frames);
+    for (const uint32_t frame : shown) report.pictures.push_back({frame, options.time + float(frame) * options.step, {}, {}});
+
+    graph::Graph& graph = engine.graph();
+    {
+        app::Progress progress("rendering", frames);
+        double last = app::now();
+        uint64_t firstMeasured = 0;
+        for (uint32_t i = 0; i < frames; ++i) {
+            engine.expect(engine.frames().begin(graph), "waiting for a frame");
+            engine.capture().collect();
+            if (i == report.dropped) firstMeasured = engine.device().frame();
+            if (i >= report.dropped && graph.timings().frame >= firstMeasured) statistics.add(graph.timings());
+
+            const float time = options.time + float(i) * options.step;
+            render::FrameOptions frame;
+            frame.visible = options.size;
+            frame.guard = options.guard;
+            frame.camera = stage.camera(options.camera, time);
+            frame.time = time;
+            frame.method = &options.choice.values();
+            frame.falloff = options.choice.falloff;
+            frame.view = options.view;
+            frame.passView = options.passView;
+            frame.exposure = options.exposure * stage.info.exposure;
+            frame.cut = i == 0;
+            frame.skipMasked = options.skipMasked;
+            const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
+            if (i == 0) expectPass(options, graph);
+            graph.output(outputs.color);
+
+            const auto place = std::find(shown.begin(), shown.end(), i);
+            ReportPicture* picture = place == shown.end() ? nullptr : &report.pictures[size_t(place - shown.begin())];
+            const bool isLast = i + 1 == frames;
+            if (!options.out.empty() || (isLast && !options.screenshot.empty()))
+                engine.expect(engine.capture().add(graph, outputs.color, [&options, i, picture, isLast](app::Picture&& done) {
+                    if (!options.out.empty()) app::writePng(options.out / fmt::format("frame_{:04}.png", i), done);
+                    if (isLast && !options.screenshot.empty()) app::writePng(options.screenshot, done);
+                    if (picture) picture->final = std::move(done);
+                }), "reading the picture back");
+            if (picture)
+                engine.expect(engine.capture().add(graph, outputs.visibility, [picture](app::Picture&& done) { picture->visibility = std::move(done); }),
+                              "reading visibility back");
+            engine.expect(engine.frames().end(graph), "rendering");
+            if (i >= report.dropped) statistics.addCpu(engine.frames().recordMilliseconds(), app::now() - last);
+            last = app::now();
+            progress.at(i + 1);
+        }
+        engine.expect(engine.frames().wait(), "finishing the last frame");
+        engine.capture().collect(true);
+        // The last frames' timestamps are read when their slots come round again.
+        for (uint32_t i = 0; i < engine.device().framesInFlight(); ++i) {
+            engine.expect(engine.frames().begin(graph), "finishing");
+            if (graph.timings().frame >= firstMeasured) statistics.add(graph.timings());
+            engine.expect(engine.frames().end(graph), "finishing");
+        }
+    }
+    if (!options.out.empty()) {
+        report.write(options.out);
+        fmt::print("{}: {} pictures, summary.html, timings.json\n", options.out.string(), frames);
+    }
+    fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, options.choice.info().id, options.size.width, options.size.height,
+               engine.device().caps().deviceName, report.table());
+    return closingWords(options, engine);
+}
+
+int flyInstead(const Options& given, const std::string& why) {
+    Options options = given;
+    options.job = Job::headless;
+    options.noPresent = true;
+    if (options.camera.kind == CameraChoice::Kind::scene) options.camera.kind = CameraChoice::Kind::flythrough;
+    constexpr uint32_t kFrames = 24;
+    if (!options.frames) {
+        // As many frames as one looks at, over the whole flythrough.
+        options.frames = kFrames;
+        options.step = 0.4f;
+    }
+    if (options.out.empty()) options.out = "out";
+    fmt::print(stderr, "obscura: {}; flying through without a window instead, pictures and summary go to {}/\n", why, options.out.string());
+    return runHeadless(options);
+}
+
+}  // namespace obscura::game

@@ -1,0 +1,63 @@
+#include "keys.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "app/window.h"
+
+namespace obscura::game {
+
+namespace {
+
+constexpr KeyBinding kBindings[] = {
+    {GLFW_KEY_1, Action::method, "1..9", "the first nine methods"},
+    {GLFW_KEY_2, Action::method, nullptr, nullptr}, {GLFW_KEY_3, Action::method, nullptr, nullptr},
+    {GLFW_KEY_4, Action::method, nullptr, nullptr}, {GLFW_KEY_5, Action::method, nullptr, nullptr},
+    {GLFW_KEY_6, Action::method, nullptr, nullptr}, {GLFW_KEY_7, Action::method, nullptr, nullptr},
+    {GLFW_KEY_8, Action::method, nullptr, nullptr}, {GLFW_KEY_9, Action::method, nullptr, nullptr},
+    {GLFW_KEY_LEFT_BRACKET, Action::previousMethod, "[", "previous method"},
+    {GLFW_KEY_RIGHT_BRACKET, Action::nextMethod, "]", "next method"},
+    {GLFW_KEY_P, Action::nextPreset, "P", "next preset of the method"},
+    {GLFW_KEY_O, Action::visibilityOnly, "O", "visibility only, and back"},
+    {GLFW_KEY_V, Action::nextView, "V", "next view: normals, depth, motion, ..."},
+    {GLFW_KEY_SPACE, Action::pause, "Space", "pause and go on"},
+    {GLFW_KEY_COMMA, Action::stepBack, ",", "pause, one frame back", true},
+    {GLFW_KEY_PERIOD, Action::stepForward, ".", "pause, one frame on", true},
+    {GLFW_KEY_MINUS, Action::slower, "-", "time runs slower"},
+    {GLFW_KEY_EQUAL, Action::faster, "=", "time runs faster"},
+    {GLFW_KEY_F, Action::toggleWalk, "F", "fly or walk"},
+    {GLFW_KEY_L, Action::toggleFlythrough, "L", "follow the scene's flythrough, and let go"},
+    {GLFW_KEY_HOME, Action::resetCamera, "Home", "camera back to where it began"},
+    {GLFW_KEY_T, Action::dropToy, "T", "drop a walking toaster where the camera looks", true},
+    {GLFW_KEY_BACKSPACE, Action::removeToy, "Backspace", "take the last dropped toaster away", true},
+    {GLFW_KEY_DELETE, Action::clearToys, "Delete", "take all dropped toasters away"},
+    {GLFW_KEY_TAB, Action::toggleOverlay, "Tab", "panels on and off"},
+    {GLFW_KEY_F1, Action::toggleKeys, "F1", "this list of keys"},
+    {GLFW_KEY_F2, Action::screenshot, "F2", "screenshot without panels, as PNG"},
+    {GLFW_KEY_F11, Action::fullScreen, "F11", "full screen"},
+    {GLFW_KEY_ESCAPE, Action::quit, "Esc", "quit"},
+};
+
+constexpr HeldKeys kHeld[] = {
+    {"W A S D", "move"},
+    {"Q E", "down and up (flying)"},
+    {"Shift", "four times as fast"},
+    {"right mouse button", "look around"},
+    {"arrows", "look around"},
+};
+
+}  // namespace
+
+std::span<const KeyBinding> keyBindings() { return kBindings; }
+std::span<const HeldKeys> heldKeys() { return kHeld; }
+
+std::string keyPage(bool withTitle) {
+    std::string page = withTitle ? "Keys:\n" : "";
+    for (const HeldKeys& held : kHeld) page += fmt::format("  {:<20} {}\n", held.name, held.effect);
+    for (const KeyBinding& binding : kBindings)
+        if (binding.name) page += fmt::format("  {:<20} {}\n", binding.name, binding.effect);
+    return page;
+}
+
+}  // namespace obscura::game

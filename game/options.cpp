@@ -1,0 +1,203 @@
+#include "options.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "keys.h"
+
+namespace obscura::game {
+
+using app::Complaint;
+
+namespace {
+
+// All of `text` as numbers between the separators; empty when it is anything else.
+std::vector<float> numbers(const std::string& text, char separator) {
+    std::vector<float> list;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (true) {
+        float value = 0.0f;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || !std::isfinite(value)) return {};
+        list.push_back(value);
+        if (next == end) return list;
+        if (*next != separator || next + 1 == end) return {};
+        at = next + 1;
+    }
+}
+
+glm::vec3 vectorOf(const char* option, const std::string& text) {
+    const std::vector<float> list = numbers(text, ',');
+    if (list.size() != 3) throw Complaint(fmt::format("{} {}: write three numbers with commas, metres: 1.5,1.7,-2", option, text));
+    return {list[0], list[1], list[2]};
+}
+
+VkExtent2D sizeOf(const std::string& text) {
+    const std::vector<float> list = numbers(text, 'x');
+    constexpr float kLeast = 16.0f, kMost = 8192.0f;
+    for (const float side : list)
+        if (list.size() != 2 || side != std::floor(side) || side < kLeast || side > kMost)
+            throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels", text, kLeast, kMost));
+    if (list.size() != 2) throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, such as 1280x720", text));
+    return {uint32_t(list[0]), uint32_t(list[1])};
+}
+
+CameraChoice cameraOf(const std::string& text) {
+    CameraChoice camera;
+    if (text.starts_with("scene:")) {
+        const std::vector<float> index = numbers(text.substr(6), ',');
+        if (index.size() != 1 || index[0] < 0.0f || index[0] != std::floor(index[0]))
+            throw Complaint(fmt::format("--camera {}: write scene:N, N counting the file's cameras from 0", text));
+        camera.kind = CameraChoice::Kind::lens;
+        camera.lens = int(index[0]);
+    } else if (text.starts_with("path:")) {
+        camera.kind = CameraChoice::Kind::path;
+        const size_t mark = text.rfind('@');
+        camera.file = text.substr(5, mark == std::string::npos ? mark : mark - 5);
+        if (mark != std::string::npos) {
+            const std::vector<float> at = numbers(text.substr(mark + 1), ',');
+            if (at.size() != 1) throw Complaint(fmt::format("--camera {}: after @ comes a time in seconds", text));
+            camera.at = at[0];
+        }
+    } else {
+        camera.kind = CameraChoice::Kind::file;
+        camera.file = text;
+    }
+    return camera;
+}
+
+// CLI11 says what is wrong; this adds what to do, in one line.
+[[noreturn]] void complain(const CLI::App& cli, const CLI::ParseError& error) {
+    std::string text = app::oneLine(error.what());
+    if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        std::vector<std::string> known;
+        for (const CLI::Option* option : cli.get_options())
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        const std::string said = app::oneLine(extras->what());
+        const std::string wrong = said.substr(said.find_last_of(':') == std::string::npos ? 0 : said.find_last_of(':') + 1);
+        const size_t first = wrong.find_first_not_of(' ');
+        const std::string word = first == std::string::npos ? said : wrong.substr(first, wrong.find(' ', first) - first);
+        const std::string near = app::nearest(word.substr(0, word.find('=')), known);
+        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
+    }
+    throw Complaint(text + " (obscura --help lists all options)");
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, const char* const* argv) {
+    Options options;
+    for (int i = 0; i < argc; ++i) options.commandLine += (i ? " " : "") + std::string(argv[i]);
+
+    CLI::App cli{"Obscura: walk through a scene and switch its ambient-obscurance method while it moves.", "obscura"};
+    cli.set_help_flag("-h,--help", "Print this and exit");
+    cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
+    cli.footer(keyPage(true));
+    cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
+    std::string method, preset, falloff, view = "final", size, camera, eye, target;
+    std::vector<std::string> assignments;
+    bool headless = false, listMethods = false, listScenes = false, listDevices = false, flythrough = false, noVsync = false;
+    uint32_t frames = 1, switchTest = 0;
+    float fov = 60.0f;
+
+    const char* kPicture = "What is shown";
+    cli.add_option("--scene", options.scene, "toasters, atrium, sponza, dragon, or the path of a glTF file")->group(kPicture)->capture_default_str();
+    cli.add_option("--method", method, "Obscurance method, by its id (--list-methods)")->group(kPicture);
+    cli.add_option("--preset", preset, "Preset of that method")->group(kPicture);
+    cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
+        ->group(kPicture)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kPicture);
+    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, or pass:NAME")
+        ->group(kPicture)->capture_default_str();
+    cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
+    cli.add_option("--guard", options.guard, "Guard band around the picture, fraction of each side")->group(kPicture)->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
+    cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")->group(kPicture)->check(CLI::Range(0.001f, 1000.0f))->capture_default_str();
+    cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, beside the scene's own")->group(kPicture)->check(CLI::Range(0u, 64u))->capture_default_str();
+    cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")->group(kPicture);
+
+    const char* kCamera = "Camera";
+    auto* cameraOption = cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")->group(kCamera);
+    cli.add_flag("--flythrough", flythrough, "Fly along the scene's own path, where no other camera is named")->group(kCamera);
+    auto* eyeOption = cli.add_option("--eye", eye, "X,Y,Z of the camera, metres")->group(kCamera);
+    auto* targetOption = cli.add_option("--target", target, "X,Y,Z it looks at")->group(kCamera);
+    auto* fovOption = cli.add_option("--fov", fov, "Vertical field of view, degrees")->group(kCamera)->check(CLI::Range(1.0f, 170.0f));
+    cameraOption->excludes(eyeOption);
+    eyeOption->needs(targetOption);
+    targetOption->needs(eyeOption);
+
+    const char* kRun = "How it runs";
+    cli.add_flag("--headless", headless, "Render without a window or display")->group(kRun);
+    auto* framesOption = cli.add_option("--frames", frames, "Frames to render, then stop (headless: 1 unless said)")->group(kRun)->check(CLI::Range(1u, 1000000u));
+    cli.add_option("--step", options.step, "Seconds a headless frame takes; 0 holds the time")->group(kRun)->check(CLI::Range(0.0f, 10.0f))->capture_default_str();
+    cli.add_option("--size", size, "WIDTHxHEIGHT of the picture or window, pixels (1280x720)")->group(kRun);
+    cli.add_option("--screenshot", options.screenshot, "PNG of the last frame")->group(kRun);
+    cli.add_option("--out", options.out, "Folder for every frame as PNG, summary.html and timings.json")->group(kRun);
+    auto* switchOption = cli.add_option("--switch-test", switchTest, "Run every method this many frames, then switch at each frame; report the worst")
+        ->group(kRun)->check(CLI::Range(1u, 10000u));
+    cli.add_flag("--full-screen", options.fullScreen, "Start in full screen")->group(kRun);
+    cli.add_flag("--no-vsync", noVsync, "Do not wait for the monitor")->group(kRun);
+    cli.add_flag("--no-present", options.noPresent, "Behave as on a device that cannot show windows")->group(kRun);
+
+    const char* kDevice = "Device";
+    cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use (--list-devices)")->group(kDevice);
+    cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync (core and synchronization)")
+        ->group(kDevice)->check(CLI::IsMember({"off", "core", "sync"}))->capture_default_str();
+    auto* cacheOption = cli.add_option("--pipeline-cache", options.pipelineCache, "File of compiled pipelines that the next start reads (in the user's cache folder)")->group(kDevice);
+    cli.add_flag("--no-pipeline-cache", options.noPipelineCache, "Neither read nor write that file")->group(kDevice)->excludes(cacheOption);
+    cli.add_flag("--verbose", options.verbose, "Print what the renderer has to say, and start-up times")->group(kDevice);
+
+    const char* kLists = "Lists";
+    auto* methodsFlag = cli.add_flag("--list-methods", listMethods, "Print every method with its parameters and presets")->group(kLists);
+    cli.add_flag("--json", options.json, "... as JSON")->group(kLists)->needs(methodsFlag);
+    cli.add_flag("--list-scenes", listScenes, "Print the named scenes and where they are found")->group(kLists);
+    cli.add_flag("--list-devices", listDevices, "Print the Vulkan devices")->group(kLists);
+
+    try {
+        cli.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::fputs(cli.help().c_str(), stdout);
+        return std::nullopt;
+    } catch (const CLI::CallForVersion& version) {
+        std::puts(version.what());
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        complain(cli, error);
+    }
+
+    if (listMethods) options.job = Job::listMethods;
+    else if (listScenes) options.job = Job::listScenes;
+    else if (listDevices) options.job = Job::listDevices;
+    else if (headless) options.job = Job::headless;
+    if (!std::isfinite(options.time)) throw Complaint("--time: must be a finite number of seconds");
+    if (!size.empty()) options.size = sizeOf(size);
+    if (*framesOption) options.frames = frames;
+    if (*switchOption) options.switchTest = switchTest;
+    options.vsync = !noVsync;
+    if (flythrough) options.camera.kind = CameraChoice::Kind::flythrough;
+    if (*cameraOption) options.camera = cameraOf(camera);
+    if (*eyeOption) {
+        options.camera.kind = CameraChoice::Kind::fixed;
+        options.camera.eye = vectorOf("--eye", eye);
+        options.camera.target = vectorOf("--target", target);
+        if (options.camera.eye == options.camera.target) throw Complaint("--target: must differ from --eye");
+    }
+    if (*fovOption) options.camera.fovDegrees = fov;
+    if (!method.empty()) options.choice.select(method);
+    if (!preset.empty()) options.choice.applyPreset(preset);
+    for (const std::string& assignment : assignments) options.choice.assign(assignment);
+    if (!falloff.empty()) options.choice.setFalloff(falloff);
+    if (!render::parseView(view, options.view, options.passView)) {
+        std::vector<std::string> names;
+        for (const render::View known : render::kViews) names.emplace_back(render::name(known));
+        throw Complaint(fmt::format("--view {}: no such view; {}, pass:NAME", view, app::choices(view, names)));
+    }
+    return options;
+}
+
+}  // namespace obscura::game

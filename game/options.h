@@ -1,0 +1,62 @@
+// The command line as a struct. Everything that can be judged without a GPU or a scene is judged here.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <vulkan/vulkan_core.h>
+
+#include "choice.h"
+#include "render/renderer.h"
+
+namespace obscura::game {
+
+enum class Job { play, headless, listMethods, listScenes, listDevices };
+
+// Where the camera is taken from.
+struct CameraChoice {
+    enum class Kind { scene, flythrough, file, lens, path, fixed } kind = Kind::scene;
+    std::filesystem::path file;    // file, path
+    int lens = 0;                  // the n-th camera of the scene's glTF
+    std::optional<float> at;       // path: stand still at this time
+    glm::vec3 eye{0.0f}, target{0.0f};
+    std::optional<float> fovDegrees;  // replaces that of any kind
+};
+
+struct Options {
+    Job job = Job::play;
+    bool json = false;
+    std::string scene = "atrium";
+    std::string device;
+    std::string validation = "off";
+    std::string pipelineCache;        // empty: the user's cache folder
+    bool noPipelineCache = false;
+    bool verbose = false;
+    bool vsync = true;
+    bool fullScreen = false;
+    bool noPresent = false;
+    VkExtent2D size{1280, 720};
+    std::optional<uint32_t> frames;
+    std::optional<uint32_t> switchTest;  // steady frames before each switch
+    float time = 0.0f;
+    float step = 1.0f / 30.0f;
+    float guard = 0.1f;
+    float exposure = 1.0f;
+    uint32_t toys = 0;                   // dropped at the start
+    bool skipMasked = false;
+    CameraChoice camera;
+    Choice choice;
+    render::View view = render::View::final;
+    std::string passView;
+    std::filesystem::path screenshot;
+    std::filesystem::path out;
+    std::string commandLine;             // for the report
+};
+
+// Throws app::Complaint. Nothing when the line asked for help or the version, which has been printed.
+std::optional<Options> parseOptions(int argc, const char* const* argv);
+
+}  // namespace obscura::game

@@ -1,0 +1,210 @@
+// Everything about methods comes out of their tables: a new method has its menu entry, keys and sliders by being registered.
+#include "panels.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace obscura::game {
+
+namespace {
+
+void tip(const char* sentence) {
+    if (!*sentence || !ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28.0f);
+    ImGui::TextUnformatted(sentence);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void methodMenu(Session& session) {
+    const auto methods = ao::methods();
+    ImGui::SetNextItemWidth(-1.0f);
+    if (!ImGui::BeginListBox("##methods", {-1.0f, ImGui::GetTextLineHeightWithSpacing() * float(std::min<size_t>(methods.size(), 9)) + 6.0f})) return;
+    for (size_t i = 0; i < methods.size(); ++i) {
+        const std::string label = fmt::format("{}  {}", i < 9 ? std::to_string(i + 1) : std::string(" "), methods[i]->title);
+        if (ImGui::Selectable(label.c_str(), i == session.choice.current())) session.selectMethod(i);
+        tip(fmt::format("{}{}{}", methods[i]->sentence, *methods[i]->paper ? "\n\n" : "", methods[i]->paper).c_str());
+    }
+    ImGui::EndListBox();
+}
+
+// Which preset the values are at this moment; null when they are nobody's.
+const ao::Preset* presetOf(const ao::Values& values) {
+    for (const ao::Preset& preset : values.info().presets) {
+        ao::Values same(values.info());
+        same.apply(preset);
+        if (same == values) return &preset;
+    }
+    return nullptr;
+}
+
+void parameterPanel(ao::Values& values) {
+    const ao::MethodInfo& info = values.info();
+    const ao::Preset* current = presetOf(values);
+    if (info.presets.size() > 0 && ImGui::BeginCombo("preset", current ? current->id : "(own)")) {
+        for (const ao::Preset& preset : info.presets) {
+            if (ImGui::Selectable(preset.id, &preset == current)) values.apply(preset);
+            tip(preset.sentence);
+        }
+        ImGui::EndCombo();
+    }
+    for (const ao::Parameter& parameter : info.parameters) {
+        float value = values[parameter.id];
+        const std::string label = *parameter.unit ? fmt::format("{} [{}]", parameter.id, parameter.unit) : parameter.id;
+        if (parameter.choices.size() > 0) {
+            int index = std::clamp(int(value + 0.5f), 0, int(parameter.choices.size()) - 1);
+            if (ImGui::Combo(label.c_str(), &index, parameter.choices.items, int(parameter.choices.size()))) values.set(parameter.id, float(index));
+        } else if (parameter.integer && parameter.minimum == 0.0f && parameter.maximum == 1.0f) {
+            bool on = value > 0.5f;
+            if (ImGui::Checkbox(label.c_str(), &on)) values.set(parameter.id, on ? 1.0f : 0.0f);
+        } else if (parameter.integer) {
+            int whole = int(value + (value < 0.0f ? -0.5f : 0.5f));
+            if (ImGui::SliderInt(label.c_str(), &whole, int(parameter.minimum), int(parameter.maximum))) values.set(parameter.id, float(whole));
+        } else {
+            // Ranges over several powers of ten need a slider that gives each of them room.
+            const bool wide = parameter.minimum > 0.0f && parameter.maximum / parameter.minimum > 50.0f;
+            if (ImGui::SliderFloat(label.c_str(), &value, parameter.minimum, parameter.maximum, "%.3g", wide ? ImGuiSliderFlags_Logarithmic : 0))
+                values.set(parameter.id, value);
+        }
+        tip(parameter.sentence);
+    }
+}
+
+void falloffPanel(ao::Falloff& falloff) {
+    int kind = int(falloff.kind);
+    if (ImGui::Combo("falloff", &kind, kFalloffNames, int(std::size(kFalloffNames)))) {
+        falloff.kind = ao::FalloffKind(kind);
+        if (falloff.kind == ao::FalloffKind::ramp) falloff.end = std::max(falloff.end, falloff.length * 2.0f);
+    }
+    tip("How much an occluder counts by its distance: 1 at the surface, less further away.");
+    const bool ramp = falloff.kind == ao::FalloffKind::ramp;
+    ImGui::SliderFloat(ramp ? "full up to [m]" : "length [m]", &falloff.length, 0.01f, 20.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
+    falloff.length = std::max(falloff.length, 1e-3f);
+    if (!ramp) return;
+    ImGui::SliderFloat("none from [m]", &falloff.end, 0.02f, 40.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
+    falloff.end = std::max(falloff.end, falloff.length * 1.001f);
+}
+
+void viewPanel(Session& session) {
+    const std::string current = session.view == render::View::pass ? "pass:" + session.passView : render::name(session.view);
+    if (ImGui::BeginCombo("view", current.c_str(), ImGuiComboFlags_HeightLarge)) {
+        for (const render::View view : render::kViews)
+            if (ImGui::Selectable(render::name(view), view == session.view)) session.view = view;
+        ImGui::Separator();
+        for (const std::string& name : session.passNames)
+            if (ImGui::Selectable(("pass:" + name).c_str(), session.view == render::View::pass && name == session.passView)) {
+                session.view = render::View::pass;
+                session.passView = name;
+            }
+        ImGui::EndCombo();
+    }
+    tip("The picture, one of the buffers behind it, or what any pass of the frame wrote.");
+    ImGui::SliderFloat("exposure", &session.exposure, 0.05f, 20.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
+    ImGui::SliderFloat("guard band", &session.guard, 0.0f, 0.5f, "%.2f");
+    tip("How far buffers reach beyond the picture, as a fraction of each side: occluders just outside still count. Costs their pixels.");
+}
+
+void timePanel(Session& session) {
+    if (ImGui::Button(session.paused ? "go on" : " pause")) session.act(Action::pause, 0);
+    ImGui::SameLine();
+    if (ImGui::Button("<")) session.act(Action::stepBack, 0);
+    ImGui::SameLine();
+    if (ImGui::Button(">")) session.act(Action::stepForward, 0);
+    ImGui::SameLine();
+    bool following = session.following;
+    if (ImGui::Checkbox("flythrough", &following)) session.act(Action::toggleFlythrough, 0);
+    ImGui::SameLine();
+    if (ImGui::Checkbox("walk", &session.player.walking)) session.following = false;
+    const float end = std::max({session.stage.world.duration(), session.stage.path.duration, 1.0f});
+    float shown = std::fmod(session.time, end);
+    if (ImGui::SliderFloat("time [s]", &shown, 0.0f, end, "%.2f")) session.scrub(shown);
+    tip("The world's time; drag to scrub. Animations and flythrough begin anew at the end.");
+    ImGui::SliderFloat("pace", &session.pace, 0.125f, 8.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
+    if (ImGui::Button("drop a toaster")) session.act(Action::dropToy, 0);
+    ImGui::SameLine();
+    if (ImGui::Button("take one away")) session.act(Action::removeToy, 0);
+    ImGui::SameLine();
+    ImGui::Text("%zu / %zu", session.stage.toys(), Stage::kMostToys);
+}
+
+void factsPanel(Session& session) {
+    const render::SceneFacts facts = session.engine.renderer().facts();
+    const double mebi = 1.0 / (1024.0 * 1024.0);
+    const scene::Camera camera = session.camera();
+    ImGui::TextUnformatted(fmt::format("{}\n{} triangles, {} drawn in {} draws\n{} instances", session.stage.info.title, facts.triangles,
+                                       facts.drawn, facts.draws, facts.instances).c_str());
+    ImGui::TextUnformatted(fmt::format("memory {:.1f} MiB: frame {:.1f}, textures {:.1f}, geometry {:.1f}",
+                                       double(session.engine.device().memoryUse()) * mebi, double(session.engine.graph().poolBytes()) * mebi,
+                                       double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi).c_str());
+    ImGui::TextUnformatted(fmt::format("eye {:.2f} {:.2f} {:.2f}", camera.eye.x, camera.eye.y, camera.eye.z).c_str());
+    ImGui::TextUnformatted(session.engine.device().caps().deviceName.c_str());
+}
+
+void errorPanel(const std::vector<std::string>& errors) {
+    if (errors.empty()) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x * 0.5f, size.y - 12.0f}, ImGuiCond_Always, {0.5f, 1.0f});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {size.x * 0.9f, size.y * 0.4f});
+    if (ImGui::Begin("Shader errors: the last good program goes on", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
+        ImGui::PushStyleColor(ImGuiCol_Text, {1.0f, 0.55f, 0.45f, 1.0f});
+        for (const std::string& error : errors) ImGui::TextUnformatted(error.c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::End();
+}
+
+void noticeLine(const Session& session) {
+    if (session.notice.empty() || app::now() > session.noticeUntil) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x * 0.5f, 12.0f}, ImGuiCond_Always, {0.5f, 0.0f});
+    constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
+    if (ImGui::Begin("##notice", nullptr, kPlain)) ImGui::TextUnformatted(session.notice.c_str());
+    ImGui::End();
+}
+
+}  // namespace
+
+void drawKeys() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x * 0.5f, size.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
+    if (ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) ImGui::TextUnformatted(keyPage(false).c_str());
+    ImGui::End();
+}
+
+void drawPanels(Session& session) {
+    noticeLine(session);
+    errorPanel(session.engine.shaders().errors());
+    if (session.showKeys) drawKeys();
+    if (!session.showOverlay) return;
+
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float width = std::min(ImGui::GetFontSize() * 26.0f, size.x * 0.45f);
+    ImGui::SetNextWindowPos({8.0f, 8.0f}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({width, size.y - 16.0f}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Obscura")) {
+        ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+        methodMenu(session);
+        parameterPanel(session.choice.values());
+        ImGui::Separator();
+        falloffPanel(session.choice.falloff);
+        ImGui::Separator();
+        viewPanel(session);
+        ImGui::Separator();
+        timePanel(session);
+        ImGui::Separator();
+        factsPanel(session);
+        ImGui::TextDisabled("F1 keys   Tab hides this");
+        ImGui::PopItemWidth();
+    }
+    ImGui::End();
+    ImGui::SetNextWindowPos({size.x - width - 8.0f, 8.0f}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({width, std::min(size.y - 16.0f, ImGui::GetFontSize() * 36.0f)}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Times")) drawTimes(session);
+    ImGui::End();
+}
+
+}  // namespace obscura::game

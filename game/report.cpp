@@ -1,0 +1,139 @@
+#include "report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/files.h"
+
+namespace obscura::game {
+
+namespace {
+
+std::string escape(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '<') out += "&lt;";
+        else if (c == '>') out += "&gt;";
+        else if (c == '&') out += "&amp;";
+        else if (c == '"') out += "&quot;";
+        else out += c;
+    }
+    return out;
+}
+
+std::string image(const app::Picture& picture, const std::string& caption) {
+    // A page of four-megapixel pictures helps nobody; the full ones lie beside it.
+    app::Picture shown = picture;
+    while (shown.width > 1000) shown = shown.half();
+    return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n", escape(caption),
+                       app::base64(app::encodePng(shown)));
+}
+
+constexpr const char* kStyle =
+    "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:72em;padding:0 1em;color:#222;background:#fff}"
+    "figure{margin:0}.pair{display:grid;grid-template-columns:1fr 1fr;gap:.6em;margin-bottom:.6em}img{width:100%;display:block}"
+    "figcaption{color:#666;font-size:.85em}table{border-collapse:collapse}td,th{padding:.15em 1em .15em 0;text-align:right}"
+    "td:first-child,th:first-child{text-align:left}.bar{display:inline-block;height:.7em;background:#4a7fb5}"
+    "dl{display:grid;grid-template-columns:max-content 1fr;gap:.1em 1em}dt{color:#666}dd{margin:0}";
+
+std::string row(const app::Series& series, double longest) {
+    const double median = series.median();
+    return fmt::format("<tr><td>{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td style=\"text-align:left\"><span class=\"bar\" style=\"width:{:.1f}em\"></span></td></tr>\n",
+                       escape(series.name), median, series.p95(), series.worst(), longest > 0.0 ? 16.0 * median / longest : 0.0);
+}
+
+nlohmann::ordered_json numbers(const app::Series& series) {
+    return {{"name", series.name}, {"median", series.median()}, {"p95", series.p95()}, {"worst", series.worst()}};
+}
+
+}  // namespace
+
+std::string Report::table() const {
+    size_t width = 20;
+    for (const app::Series& pass : statistics.passes()) width = std::max(width, pass.name.size());
+    std::string text = fmt::format("{:<{}} {:>10} {:>10} {:>10}   ms, {} frames\n", "pass", width, "median", "p95", "worst", statistics.gpu().values.size());
+    const auto line = [&](const app::Series& s, const std::string& name) {
+        text += fmt::format("{:<{}} {:>10.3f} {:>10.3f} {:>10.3f}\n", name, width, s.median(), s.p95(), s.worst());
+    };
+    for (const app::Series& pass : statistics.passes()) line(pass, pass.name);
+    line(statistics.gpu(), "= gpu frame");
+    line(statistics.cpu(), "cpu, recording");
+    line(statistics.frame(), "frame to frame");
+    return text;
+}
+
+void Report::write(const std::filesystem::path& folder) const {
+    const render::SceneFacts facts = engine.renderer().facts();
+    const gpu::Caps& caps = engine.device().caps();
+    const double mebi = 1.0 / (1024.0 * 1024.0);
+    const Choice& choice = options.choice;
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+    for (const ao::Parameter& parameter : choice.info().parameters) parameters[parameter.id] = choice.values()[parameter.id];
+    nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+    for (const app::Series& pass : statistics.passes()) passes.push_back(numbers(pass));
+    const nlohmann::ordered_json timings{
+        {"device", caps.deviceName},
+        {"software", caps.software},
+        {"timestamps", caps.timestamps},
+        {"scene", stage.info.name},
+        {"method", choice.info().id},
+        {"parameters", parameters},
+        {"falloff", falloffText(choice.falloff)},
+        {"width", options.size.width},
+        {"height", options.size.height},
+        {"guard", options.guard},
+        {"frames", frames},
+        {"measured", statistics.gpu().values.size()},
+        {"unit", "ms"},
+        {"passes", passes},
+        {"gpu", numbers(statistics.gpu())},
+        {"cpu", numbers(statistics.cpu())},
+        {"frame", numbers(statistics.frame())},
+        {"memoryBytes", engine.device().memoryUse()},
+        {"startSeconds",
+         {{"device", engine.started.device},
+          {"scene", engine.started.scene},
+          {"pipelines", engine.started.pipelines},
+          {"warmUp", engine.started.warmUp},
+          {"pipelineCacheFound", engine.started.cacheFound}}},
+    };
+    app::writeFile(folder / "timings.json", timings.dump(2) + "\n");
+
+    std::string page = fmt::format("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Obscura: {0}, {1}</title><style>{2}</style>\n<h1>{0}, {3}</h1>\n",
+                                   escape(stage.info.title), choice.info().id, kStyle, escape(choice.info().title));
+    for (const ReportPicture& picture : pictures) {
+        page += "<div class=\"pair\">\n" + image(picture.final, fmt::format("frame {}, {:.2f} s", picture.frame, picture.time));
+        page += image(picture.visibility, "visibility") + "</div>\n";
+    }
+    page += "<h2>Times</h2>\n<table><tr><th>pass</th><th>median</th><th>p95</th><th>worst, ms</th><th></th></tr>\n";
+    double longest = 0.0;
+    for (const app::Series& pass : statistics.passes()) longest = std::max(longest, pass.median());
+    for (const app::Series& pass : statistics.passes()) page += row(pass, longest);
+    for (const app::Series* total : {&statistics.gpu(), &statistics.cpu(), &statistics.frame()}) page += row(*total, 0.0);
+    page += fmt::format("</table>\n<p>gpu: first to last timestamp of a frame; cpu: recording and submitting; frame: from one to the next, pictures "
+                        "written included. {} frames, the first {} left out.</p>\n<h2>Facts</h2>\n<dl>\n", frames, dropped);
+    std::string set;
+    for (const ao::Parameter& parameter : choice.info().parameters) set += fmt::format("{}={:g} ", parameter.id, choice.values()[parameter.id]);
+    const std::pair<const char*, std::string> rows[] = {
+        {"device", caps.deviceName},
+        {"picture", fmt::format("{} x {}, guard band {:g}", options.size.width, options.size.height, options.guard)},
+        {"method", fmt::format("{} {}", choice.info().id, set)},
+        {"falloff", falloffText(choice.falloff)},
+        {"scene", stage.file},
+        {"triangles", fmt::format("{} ({} drawn, {} draws)", facts.triangles, facts.drawn, facts.draws)},
+        {"instances", fmt::format("{} ({} dropped toasters)", facts.instances, stage.toys())},
+        {"memory", fmt::format("{:.1f} MiB on the device; textures {:.1f}, geometry {:.1f}", double(engine.device().memoryUse()) * mebi,
+                               double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi)},
+        {"start", fmt::format("{:.2f} s: device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}", engine.started.total(),
+                              engine.started.device, engine.started.scene, engine.started.pipelines, engine.started.warmUp,
+                              engine.started.cacheFound ? "found" : "not there yet")},
+        {"command", options.commandLine},
+    };
+    for (const auto& [term, text] : rows) page += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, escape(text));
+    page += "</dl>\n</html>\n";
+    app::writeFile(folder / "summary.html", page);
+}
+
+}  // namespace obscura::game

@@ -1,0 +1,34 @@
+// What a headless run leaves behind: a table on the terminal, summary.html and timings.json.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/picture.h"
+#include "app/statistics.h"
+#include "engine.h"
+
+namespace obscura::game {
+
+struct ReportPicture {
+    uint32_t frame = 0;
+    float time = 0.0f;  // seconds
+    app::Picture final, visibility;
+};
+
+struct Report {
+    const Options& options;
+    Engine& engine;
+    const Stage& stage;
+    const app::Statistics& statistics;
+    uint32_t frames = 0;    // rendered
+    uint32_t dropped = 0;   // of these, left out of the times
+    std::vector<ReportPicture> pictures;
+
+    std::string table() const;  // per-pass times as text
+    // Both files, each whole or not at all.
+    void write(const std::filesystem::path& folder) const;
+};
+
+}  // namespace obscura::game

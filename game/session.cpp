@@ -1,0 +1,159 @@
+#include "session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace obscura::game {
+
+namespace {
+
+constexpr float kFrame = 1.0f / 30.0f;  // what , and . step by, seconds
+
+}  // namespace
+
+Session::Session(const Options& given, Stage& stage_, Engine& engine_)
+    : options(given), stage(stage_), engine(engine_), choice(given.choice), view(given.view), passView(given.passView), time(given.time),
+      exposure(given.exposure * stage_.info.exposure), guard(given.guard), m_lastMethod(given.choice.current()) {
+    m_follow = options.camera;
+    following = stage.moves(options.camera);
+    if (!following) m_follow.kind = CameraChoice::Kind::flythrough;  // what L follows
+    m_camera = stage.camera(options.camera, time);
+    player.look(m_camera);
+}
+
+void Session::say(const std::string& line) {
+    constexpr double kShown = 4000.0;  // milliseconds
+    notice = line;
+    noticeUntil = app::now() + kShown;
+}
+
+void Session::selectMethod(size_t index) {
+    if (index >= Choice::count()) return say(fmt::format("there are {} methods", Choice::count()));
+    choice.select(index);
+    say(fmt::format("{}: {}", choice.info().id, choice.info().title));
+}
+
+void Session::scrub(float to) {
+    time = std::max(0.0f, to);
+    cut = true;
+}
+
+void Session::stepTime(float seconds) {
+    paused = true;
+    time = std::max(0.0f, time + seconds);
+    // One frame back or on is a movement like any other; histories stay good.
+}
+
+void Session::act(Action action, int key) {
+    switch (action) {
+        case Action::quit: wantsQuit = true; break;
+        case Action::toggleOverlay: showOverlay = !showOverlay; break;
+        case Action::toggleKeys: showKeys = !showKeys; break;
+        case Action::screenshot: wantsScreenshot = true; break;
+        case Action::fullScreen: wantsFullScreen = true; break;
+        case Action::visibilityOnly: view = view == render::View::visibility ? render::View::final : render::View::visibility; break;
+        case Action::nextView: {
+            const auto at = std::find(std::begin(render::kViews), std::end(render::kViews), view);
+            view = at == std::end(render::kViews) || at + 1 == std::end(render::kViews) ? render::kViews[0] : at[1];
+            say(fmt::format("view: {}", render::name(view)));
+            break;
+        }
+        case Action::method: selectMethod(size_t(key - GLFW_KEY_1)); break;
+        case Action::previousMethod:
+        case Action::nextMethod:
+            choice.selectNext(action == Action::nextMethod ? 1 : -1);
+            say(fmt::format("{}: {}", choice.info().id, choice.info().title));
+            break;
+        case Action::nextPreset: {
+            const auto& presets = choice.info().presets;
+            size_t next = 0;
+            for (size_t i = 0; i < presets.size(); ++i) {
+                ao::Values values(choice.info());
+                values.apply(presets[i]);
+                if (values == choice.values()) next = (i + 1) % presets.size();
+            }
+            if (presets.size() == 0) break;
+            choice.values().apply(presets[next]);
+            say(fmt::format("{}: preset {}", choice.info().id, presets[next].id));
+            break;
+        }
+        case Action::pause: paused = !paused; break;
+        case Action::stepBack: stepTime(-kFrame); break;
+        case Action::stepForward: stepTime(kFrame); break;
+        case Action::faster: pace = std::min(pace * 2.0f, 8.0f); say(fmt::format("time x {:g}", pace)); break;
+        case Action::slower: pace = std::max(pace * 0.5f, 0.125f); say(fmt::format("time x {:g}", pace)); break;
+        case Action::toggleWalk:
+            player.walking = !player.walking;
+            following = false;
+            say(player.walking ? "walking" : "flying");
+            break;
+        case Action::toggleFlythrough:
+            following = !following;
+            cut = following;
+            if (!following) player.look(m_camera);
+            say(following ? "following the flythrough" : player.walking ? "walking" : "flying");
+            break;
+        case Action::resetCamera:
+            following = false;
+            player.look(stage.startCamera());
+            cut = true;
+            break;
+        case Action::dropToy: {
+            const glm::vec3 away = m_camera.eye - m_camera.target;
+            if (stage.dropToy(stage.floorAhead(m_camera), std::atan2(away.x, away.z), time))
+                say(fmt::format("{} of {} toasters dropped", stage.toys(), Stage::kMostToys));
+            else
+                say(stage.hasToys() ? fmt::format("{} toasters are as many as there can be; Backspace takes one away", Stage::kMostToys)
+                                    : "toasters.glb is not there; build the project once, its generator makes it");
+            break;
+        }
+        case Action::removeToy: stage.removeToy(); say(fmt::format("{} toasters dropped", stage.toys())); break;
+        case Action::clearToys: stage.clearToys(); say("no toasters dropped"); break;
+    }
+}
+
+void Session::advance(const app::Window& window, float seconds, bool keysTaken) {
+    constexpr float kLongest = 0.25f;  // seconds: after a hitch the world goes on, it does not jump
+    seconds = std::min(seconds, kLongest);
+    if (!paused) time += seconds * pace;
+    if (!keysTaken) {
+        player.update(window, seconds, stage.moveSpeed(), {stage.info.floor, stage.info.walkMin, stage.info.walkMax});
+        if (following && player.moved()) {  // whoever takes the controls flies
+            following = false;
+            player.look(m_camera);
+        }
+    }
+    m_camera = following ? stage.camera(m_follow, time) : player.camera();
+}
+
+render::FrameOptions Session::frame(VkExtent2D size) {
+    if (choice.current() != m_lastMethod) m_switchRounds = engine.device().framesInFlight();
+    m_lastMethod = choice.current();
+    render::FrameOptions frame;
+    frame.visible = size;
+    frame.guard = guard;
+    frame.camera = m_camera;
+    frame.time = time;
+    frame.method = &choice.values();
+    frame.falloff = choice.falloff;
+    frame.view = view;
+    frame.passView = passView;
+    frame.exposure = exposure;
+    frame.cut = cut;
+    frame.skipMasked = options.skipMasked;
+    cut = false;
+    return frame;
+}
+
+void Session::measured(double milliseconds) {
+    constexpr uint64_t kSettling = 10;  // the window has just been opened
+    if (++m_frames <= kSettling) return;
+    // With frames in flight, a late GPU shows only when a later round waits for it.
+    (m_switchRounds > 0 ? switches : steady).values.push_back(milliseconds);
+    if (m_switchRounds > 0) --m_switchRounds;
+}
+
+}  // namespace obscura::game

@@ -1,0 +1,241 @@
+#include "stage.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "app/complaint.h"
+
+namespace obscura::game {
+
+namespace fs = std::filesystem;
+using app::Complaint;
+
+namespace {
+
+constexpr const char* kToysFile = "toasters.glb";
+
+// "toaster_3", whatever the case and with or without the underscore: the root of one toy.
+bool isToyRoot(const std::string& name) {
+    std::string lower;
+    for (const char c : name) lower += char(std::tolower((unsigned char)c));
+    if (!lower.starts_with("toaster")) return false;
+    const size_t digits = lower.size() > 7 && lower[7] == '_' ? 8 : 7;
+    return digits < lower.size() && std::all_of(lower.begin() + long(digits), lower.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+scene::CameraPath orbit(const scene::Bounds& bounds) {
+    const scene::Camera first = scene::frame(bounds);
+    const glm::vec3 arm = first.eye - first.target;
+    scene::CameraPath path;
+    path.name = "orbit";
+    constexpr int kKeys = 12;
+    path.duration = 24.0f;
+    for (int i = 0; i < kKeys; ++i) {
+        const float turn = glm::radians(360.0f * float(i) / kKeys);
+        const glm::vec3 turned(arm.x * std::cos(turn) + arm.z * std::sin(turn), arm.y, arm.z * std::cos(turn) - arm.x * std::sin(turn));
+        path.keys.push_back({path.duration * float(i) / kKeys, first.target + turned, first.target, first.fovY});
+    }
+    return path;
+}
+
+}  // namespace
+
+Stage::Stage(const std::string& scene) {
+    const std::vector<SceneInfo> manifest = loadManifest();
+    const auto named = std::find_if(manifest.begin(), manifest.end(), [&](const SceneInfo& s) { return s.name == scene; });
+    std::error_code ignored;
+    if (named != manifest.end()) {
+        loadNamed(*named);
+    } else if (fs::is_regular_file(scene, ignored)) {
+        loadFile(scene);
+    } else {
+        std::vector<std::string> names;
+        for (const SceneInfo& s : manifest) names.push_back(s.name);
+        const bool looksLikePath = scene.find('/') != std::string::npos || scene.find(".gl") != std::string::npos;
+        throw Complaint(looksLikePath ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", scene, fmt::join(names, ", "))
+                                      : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", scene, app::choices(scene, names)));
+    }
+}
+
+void Stage::loadNamed(const SceneInfo& named) {
+    info = named;
+    std::optional<fs::path> found;
+    for (size_t i = 0; i < info.files.size() && !found; ++i) found = findContent(info.files[i]);
+    if (!found) throw Complaint(fmt::format("--scene {}: {} is not there; {}", info.name, info.files.front(), info.howToGet));
+    file = found->string();
+    world.add({.model = scene::loadGltf(*found)});
+    loadToys(!info.toys.empty());
+    for (const ToyGroup& group : info.toys) placeGroup(group);
+    bounds = scene::bounds(world, 0.0f);
+    if (const auto flythrough = findContent(info.flythrough)) path = scene::loadCameraPath(*flythrough);
+    else path = orbit(bounds);
+}
+
+void Stage::loadFile(const fs::path& path_) {
+    file = path_.string();
+    auto model = scene::loadGltf(path_);
+    for (const std::string& warning : model->warnings) remarks.push_back(warning);
+    info.name = model->name;
+    info.title = path_.filename().string();
+    world.add({.model = std::move(model)});
+    bounds = scene::bounds(world, 0.0f);
+    if (bounds.empty) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", path_.string()));
+    // glTF counts in metres. Files that clearly do not are brought to a size one can walk around, by powers of ten.
+    constexpr float kLargest = 120.0f, kSmallest = 0.25f;
+    float scale = 1.0f;
+    while (bounds.radius() * scale > kLargest) scale *= 0.1f;
+    while (bounds.radius() * scale < kSmallest && bounds.radius() > 0.0f && scale < 1e9f) scale *= 10.0f;
+    if (scale != 1.0f) {
+        remarks.push_back(fmt::format("{}: {:g} m across, shown at {:g} times its size", file, 2.0f * bounds.radius(), scale));
+        world.instances().front().placement = glm::scale(glm::mat4(1.0f), glm::vec3(scale));
+        bounds = scene::bounds(world, 0.0f);
+    }
+    const scene::Camera camera = scene::frame(bounds);
+    info.floor = bounds.min.y;
+    info.eye = camera.eye;
+    info.target = camera.target;
+    info.toyScale = std::clamp(bounds.radius() * 0.25f, 0.2f, 3.0f);
+    info.walkMin = {bounds.min.x - bounds.radius(), bounds.min.z - bounds.radius()};
+    info.walkMax = {bounds.max.x + bounds.radius(), bounds.max.z + bounds.radius()};
+    path = orbit(bounds);
+    loadToys(false);
+}
+
+void Stage::loadToys(bool wanted) {
+    // The scene may be the toys themselves; then nothing is loaded twice.
+    const std::optional<fs::path> found = findContent(kToysFile);
+    const scene::Instance& first = world.instances().front();
+    if (found && found->string() == file) m_toys = first.model;
+    else if (found) m_toys = scene::loadGltf(*found);
+    if (!m_toys) {
+        if (wanted) remarks.push_back(fmt::format("{} is not there, so no toasters walk; build the project once, its generator makes it", kToysFile));
+        return;
+    }
+    const float duration = m_toys->animations.empty() ? 0.0f : m_toys->animations.front().duration;
+    for (const int node : m_toys->order)
+        if (isToyRoot(m_toys->nodes[size_t(node)].name)) m_toyRoots.push_back(node);
+    m_toyGround.assign(m_toyRoots.size(), 1e9f);
+    // A toy's root is between its feet; they hop, so the ground is the lowest it ever is.
+    constexpr int kSamples = 32;
+    for (int i = 0; i < kSamples; ++i) {
+        const scene::Pose pose = scene::evaluate(*m_toys, 0, duration * float(i) / kSamples);
+        for (size_t t = 0; t < m_toyRoots.size(); ++t) m_toyGround[t] = std::min(m_toyGround[t], pose.world[size_t(m_toyRoots[t])][3].y);
+    }
+    if (m_toyRoots.empty()) m_toys = nullptr;
+}
+
+void Stage::placeGroup(const ToyGroup& group) {
+    for (size_t t = 0; m_toys && t < m_toyRoots.size(); ++t) {
+        glm::mat4 placement = glm::translate(glm::mat4(1.0f), group.at);
+        placement = glm::rotate(placement, group.turn, glm::vec3(0, 1, 0));
+        placement = glm::scale(placement, glm::vec3(group.scale));
+        placement = glm::translate(placement, glm::vec3(0.0f, -m_toyGround[t], 0.0f));
+        world.add({.model = m_toys, .placement = placement, .timeOffset = group.time, .root = m_toyRoots[t]});
+    }
+}
+
+bool Stage::dropToy(const glm::vec3& at, float turn, float time) {
+    if (!m_toys || m_dropped.size() >= kMostToys) return false;
+    // Each next toy is another one, at another moment of its walk, so that a crowd does not march in step.
+    const size_t which = m_dropped.size() % m_toyRoots.size();
+    const float offset = 1.37f * float(m_dropped.size());
+    const scene::Pose pose = scene::evaluate(*m_toys, 0, time + offset);
+    const glm::vec3 stands(pose.world[size_t(m_toyRoots[which])][3]);
+    glm::mat4 placement = glm::translate(glm::mat4(1.0f), glm::vec3(at.x, info.floor, at.z));
+    placement = glm::rotate(placement, turn, glm::vec3(0, 1, 0));
+    placement = glm::scale(placement, glm::vec3(info.toyScale));
+    placement = glm::translate(placement, glm::vec3(-stands.x, -m_toyGround[which], -stands.z));
+    m_dropped.push_back(world.add({.model = m_toys, .placement = placement, .timeOffset = offset, .root = m_toyRoots[which]}));
+    return true;
+}
+
+void Stage::dropToys(uint32_t count, float time) {
+    const glm::vec3 middle = floorAhead(startCamera());
+    for (uint32_t i = 0; i < count; ++i) {
+        // A sunflower's spiral spreads any number evenly.
+        const float angle = 2.3999632f * float(i), radius = 0.55f * info.toyScale * std::sqrt(float(i));
+        const glm::vec3 at = middle + radius * glm::vec3(std::cos(angle), 0.0f, std::sin(angle));
+        if (!dropToy({std::clamp(at.x, info.walkMin.x, info.walkMax.x), at.y, std::clamp(at.z, info.walkMin.y, info.walkMax.y)}, angle, time)) return;
+    }
+}
+
+void Stage::removeToy() {
+    if (m_dropped.empty()) return;
+    world.remove(m_dropped.back());
+    m_dropped.pop_back();
+}
+
+void Stage::clearToys() {
+    while (!m_dropped.empty()) removeToy();
+}
+
+glm::vec3 Stage::floorAhead(const scene::Camera& camera) const {
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+    const float ahead = std::clamp(bounds.radius() * 0.5f, 1.0f, 6.0f), farthest = 4.0f * ahead;
+    const float down = camera.eye.y - info.floor;
+    float distance = forward.y < -1e-3f && down > 0.0f ? down / -forward.y : ahead;
+    distance = std::min(distance, farthest);
+    glm::vec3 at = camera.eye + distance * forward;
+    at.x = std::clamp(at.x, info.walkMin.x, info.walkMax.x);
+    at.z = std::clamp(at.z, info.walkMin.y, info.walkMax.y);
+    at.y = info.floor;
+    return at;
+}
+
+float Stage::moveSpeed() const { return std::clamp(bounds.radius() * 0.4f, 0.3f, 3.0f); }
+
+scene::Camera Stage::startCamera() const {
+    scene::Camera camera = scene::frame(bounds);
+    camera.eye = info.eye;
+    camera.target = info.target;
+    return camera;
+}
+
+bool Stage::moves(const CameraChoice& choice) const {
+    using Kind = CameraChoice::Kind;
+    return choice.kind == Kind::flythrough || choice.kind == Kind::lens || (choice.kind == Kind::path && !choice.at);
+}
+
+scene::Camera Stage::camera(const CameraChoice& choice, float time) {
+    using Kind = CameraChoice::Kind;
+    scene::Camera camera = startCamera();
+    const float near = camera.nearPlane;
+    if (choice.kind == Kind::flythrough) {
+        camera = path.at(time);
+        camera.nearPlane = near;
+    } else if (choice.kind == Kind::path) {
+        if (!m_chosenPath) m_chosenPath = std::make_shared<scene::CameraPath>(scene::loadCameraPath(choice.file));
+        camera = m_chosenPath->at(choice.at.value_or(time));
+        camera.nearPlane = near;
+    } else if (choice.kind == Kind::file) {
+        camera = scene::loadCamera(choice.file);
+    } else if (choice.kind == Kind::fixed) {
+        camera.eye = choice.eye;
+        camera.target = choice.target;
+    } else if (choice.kind == Kind::lens) {
+        const scene::Instance& instance = world.instances().front();
+        const int count = scene::lensCount(*instance.model);
+        if (choice.lens >= count)
+            throw Complaint(fmt::format("--camera scene:{}: {} has {}", choice.lens, file,
+                                        count == 0 ? "no cameras; use --eye and --target" : fmt::format("cameras 0 to {}", count - 1)));
+        camera = scene::lensCamera(instance, scene::evaluate(*instance.model, instance.animation, time + instance.timeOffset), choice.lens);
+    }
+    if (choice.fovDegrees) camera.fovY = glm::radians(*choice.fovDegrees);
+    return camera;
+}
+
+std::string sceneList() {
+    std::string text;
+    for (const SceneInfo& info : loadManifest()) {
+        std::optional<fs::path> found;
+        for (size_t i = 0; i < info.files.size() && !found; ++i) found = findContent(info.files[i]);
+        text += fmt::format("{:<10} {}\n{:<10} {}\n", info.name, info.title, "", found ? found->string() : "missing: " + info.howToGet);
+    }
+    return text;
+}
+
+}  // namespace obscura::game

@@ -1,0 +1,61 @@
+// The scene that is being played: its world, its toys, where its cameras stand.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "content.h"
+#include "options.h"
+#include "scene/camera.h"
+#include "scene/world.h"
+
+namespace obscura::game {
+
+class Stage {
+public:
+    static constexpr size_t kMostToys = 64;  // dropped by the player
+
+    // `scene` is a name of the manifest or a path. Throws app::Complaint or scene::Error.
+    explicit Stage(const std::string& scene);
+
+    scene::World world;
+    SceneInfo info;
+    scene::CameraPath path;               // the flythrough; an orbit where a scene brings none
+    scene::Bounds bounds;                 // at time 0, of everything
+    std::vector<std::string> remarks;     // one line each, for the terminal
+    std::string file;                     // what was loaded
+
+    scene::Camera startCamera() const;
+    // The camera that an option asks for, at a time.
+    scene::Camera camera(const CameraChoice& choice, float time);
+    bool moves(const CameraChoice& choice) const;  // does it change over time by itself?
+
+    // Drops a toy that stands at `at` (its height is the floor's) at this time and walks on from there. False at the limit
+    // or without toasters.glb.
+    bool dropToy(const glm::vec3& at, float turn, float time);
+    void dropToys(uint32_t count, float time);  // spread around the place the first camera looks at
+    void removeToy();
+    void clearToys();
+    size_t toys() const { return m_dropped.size(); }
+    bool hasToys() const { return m_toys != nullptr; }
+    // Where a ray meets the floor, or the point ahead when it does not.
+    glm::vec3 floorAhead(const scene::Camera& camera) const;
+    float moveSpeed() const;  // metres a second that suit the scene's size
+
+private:
+    void loadNamed(const SceneInfo& named);
+    void loadFile(const std::filesystem::path& file);
+    void loadToys(bool wanted);
+    void placeGroup(const ToyGroup& group);
+    std::shared_ptr<const scene::Model> m_toys;
+    std::vector<int> m_toyRoots;      // nodes of m_toys
+    std::vector<float> m_toyGround;   // height of each toy's feet in the model, metres
+    std::vector<uint32_t> m_dropped;  // instance ids
+    std::shared_ptr<scene::CameraPath> m_chosenPath;  // of --camera path:
+};
+
+// "name  title  where" lines of the manifest.
+std::string sceneList();
+
+}  // namespace obscura::game

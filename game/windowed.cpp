@@ -1,0 +1,186 @@
+// The game in its window.
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "app/overlay.h"
+#include "app/presenter.h"
+#include "input.h"
+#include "jobs.h"
+#include "panels.h"
+
+namespace obscura::game {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kReloadEvery = 250.0;  // milliseconds between looks at edited shaders
+constexpr double kIdleWait = 0.1;       // seconds, while there is nothing to draw into
+
+// A name that no file has yet: obscura-20240131-235959.png, then with -2, -3, ...
+fs::path screenshotName() {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    ::localtime_r(&now, &local);
+    char stamp[32];
+    std::strftime(stamp, sizeof(stamp), "%Y%m%d-%H%M%S", &local);
+    fs::path name = fmt::format("obscura-{}.png", stamp);
+    for (int i = 2; fs::exists(name); ++i) name = fmt::format("obscura-{}-{}.png", stamp, i);
+    return name;
+}
+
+class Game {
+public:
+    Game(const Options& options, app::Window& window, app::Presenter& presenter, Engine& engine, Stage& stage)
+        : m_options(options), m_window(window), m_presenter(presenter), m_engine(engine), m_session(options, stage, engine) {}
+
+    void run();
+
+private:
+    void drawFrame();
+    void takeScreenshot(graph::Graph& graph, graph::ImageId picture, fs::path file, bool last);
+    void makeOverlay(VkFormat format);
+    const Options& m_options;
+    app::Window& m_window;
+    app::Presenter& m_presenter;
+    Engine& m_engine;
+    Session m_session;
+    std::unique_ptr<app::Overlay> m_overlay;
+    uint64_t m_shown = 0;
+    bool m_overlayTried = false;
+    bool m_idle = false;      // the last round drew nothing
+    double m_lastFrame = 0.0;
+};
+
+void Game::makeOverlay(VkFormat format) {
+    m_overlayTried = true;
+    std::string error;
+    m_overlay = app::Overlay::create(m_engine.device(), m_window, format, error);
+    if (!m_overlay) fmt::print(stderr, "obscura: {}; the game goes on without panels\n", error);
+}
+
+void Game::takeScreenshot(graph::Graph& graph, graph::ImageId picture, fs::path file, bool last) {
+    m_engine.expect(m_engine.capture().add(graph, picture, [this, file = std::move(file), last](app::Picture&& done) {
+        try {
+            app::writePng(file, done);
+            m_session.say("wrote " + file.string());
+            fmt::print("wrote {}\n", file.string());
+            std::fflush(stdout);
+        } catch (const app::Complaint& complaint) {
+            if (last) throw;  // asked for on the command line: the exit code must tell
+            m_session.say(complaint.what());
+            fmt::print(stderr, "obscura: {}\n", complaint.what());
+        }
+    }), "taking a screenshot");
+}
+
+void Game::drawFrame() {
+    graph::Graph& graph = m_engine.graph();
+    app::Frames& frames = m_engine.frames();
+    m_engine.expect(frames.begin(graph), "waiting for a frame");
+    m_engine.capture().collect();
+    m_session.statistics.add(graph.timings());
+    m_idle = !m_presenter.acquire(frames.slot());
+    if (m_idle) return m_engine.expect(frames.end(graph), "idling");
+
+    const render::Outputs outputs = m_engine.renderer().add(graph, m_session.stage.world, m_session.frame(m_presenter.size()));
+    m_session.passNames.clear();
+    for (const graph::Graph::Written& written : graph.written())
+        if (std::find(m_session.passNames.begin(), m_session.passNames.end(), written.pass) == m_session.passNames.end())
+            m_session.passNames.push_back(written.pass);
+    const bool last = m_options.frames && m_shown + 1 >= *m_options.frames;
+    if (m_session.wantsScreenshot) takeScreenshot(graph, outputs.color, screenshotName(), false);
+    m_session.wantsScreenshot = false;
+    if (last && !m_options.screenshot.empty()) takeScreenshot(graph, outputs.color, m_options.screenshot, true);
+    if (!m_overlayTried) makeOverlay(graph.desc(outputs.color).format);
+    if (m_overlay) {
+        m_overlay->beginFrame();
+        drawPanels(m_session);
+        m_overlay->add(graph, outputs.color, frames.slot());
+    }
+    m_presenter.add(graph, outputs.color);
+    m_engine.expect(frames.end(graph, m_presenter.acquired(), m_presenter.rendered()), "drawing");
+    m_engine.expect(m_presenter.present(), "presenting");
+    ++m_shown;
+    if (last) m_window.close();
+}
+
+void Game::run() {
+    double lastReload = 0.0;
+    m_lastFrame = app::now();
+    while (!m_window.closing()) {
+        if (m_idle) m_window.waitEvents(kIdleWait);
+        m_window.poll();
+        const bool typing = m_overlay && m_overlay->wantsKeys();
+        if (!typing) handleKeys(m_window, m_session);
+        if (m_session.wantsQuit) break;
+        if (m_session.wantsFullScreen) m_window.toggleFullScreen();
+        m_session.wantsFullScreen = false;
+        // Looking around begins outside the panels and then goes on wherever the hidden pointer is.
+        const bool onPanel = m_overlay && m_overlay->wantsMouse();
+        m_window.captureMouse(m_window.button(GLFW_MOUSE_BUTTON_RIGHT) && (m_window.mouseCaptured() || !onPanel));
+
+        const double begun = app::now();
+        const double since = begun - m_lastFrame;
+        m_lastFrame = begun;
+        m_session.advance(m_window, float(since * 1e-3), typing);
+        if (m_engine.reloads() && begun - lastReload > kReloadEvery) {
+            lastReload = begun;
+            if (m_engine.shaders().poll()) m_session.say("shaders reloaded");
+        }
+        const bool wasIdle = m_idle;
+        drawFrame();
+        if (!m_idle && !wasIdle) {
+            // The whole round: with a frame in flight a hitch may show one round later, at the wait.
+            m_session.statistics.addCpu(m_engine.frames().recordMilliseconds(), since);
+            m_session.measured(app::now() - begun);
+        }
+    }
+    m_engine.expect(m_engine.frames().wait(), "finishing the last frame");
+    m_engine.capture().collect(true);
+    if (!m_session.switches.values.empty())
+        fmt::print("worst frame at a switch {:.2f} ms ({} switches), median frame {:.2f} ms\n", m_session.switches.worst(),
+                   m_session.switches.values.size(), m_session.steady.median());
+}
+
+}  // namespace
+
+int playWindowed(const Options& options) {
+    if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
+    std::string error;
+    auto window = app::Window::open("Obscura", int(options.size.width), int(options.size.height), error);
+    if (!window) return flyInstead(options, "no window: " + error);
+
+    Stage stage(options.scene);
+    stage.camera(options.camera, options.time);
+    for (const std::string& remark : stage.remarks) fmt::print(stderr, "obscura: {}\n", remark);
+    stage.dropToys(options.toys, options.time);
+    auto engine = std::make_unique<Engine>(options, window.get());
+    auto presenter = app::Presenter::create(engine->device(), *window, options.vsync, error);
+    if (!presenter) {
+        engine.reset();
+        window.reset();
+        return flyInstead(options, error);
+    }
+    engine->prepare(options, stage, true);
+    fmt::print("{}: {} on {}, {} methods; started in {:.2f} s (pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}). F1 shows the keys.\n",
+               "Obscura", stage.info.title, engine->device().caps().deviceName, Choice::count(), engine->started.total(),
+               engine->started.pipelines, engine->started.warmUp, engine->started.cacheFound ? "found" : "not there yet");
+    std::fflush(stdout);
+    if (options.switchTest) {
+        switchTest(options, *engine, stage);
+    } else {
+        if (options.fullScreen) window->toggleFullScreen();
+        Game(options, *window, *presenter, *engine, stage).run();
+    }
+    const int code = closingWords(options, *engine);
+    presenter.reset();
+    return code;
+}
+
+}  // namespace obscura::game
