@@ -1,0 +1,153 @@
+// The host's door: a context on a device that is somebody else's, with images that are somebody else's.
+#include "ao/room.h"
+
+namespace obscura::ao {
+namespace {
+
+std::vector<std::string>& lines() {
+    static std::vector<std::string> all;
+    return all;
+}
+void keep(void*, Severity, const char* line) { lines().emplace_back(line); }
+
+class DoorTest : public test::GpuTest {
+protected:
+    gpu::Device& m_device = test::device();
+    test::Room m_room;
+    gpu::Image m_depth, m_normals;
+    Context* m_context = nullptr;
+
+    void SetUp() override {
+        test::GpuTest::SetUp();
+        lines().clear();
+        m_room.wall = -5.0f;
+        m_room.build();
+        m_depth = m_room.image(m_device, false);
+        m_normals = m_room.image(m_device, true);
+        ASSERT_EQ(create(desc(), &m_context), Status::ok);
+    }
+    void TearDown() override {
+        m_device.waitIdle();
+        destroy(m_context);
+        m_depth = {};
+        m_normals = {};
+        test::GpuTest::TearDown();
+    }
+    DeviceDesc desc() const {
+        DeviceDesc d;
+        d.instance = m_device.instance();
+        d.physicalDevice = m_device.physical();
+        d.device = m_device.handle();
+        d.queueFamily = m_device.queueFamily();
+        d.getInstanceProcAddr = m_device.vk().GetInstanceProcAddr;
+        d.log = keep;
+        return d;
+    }
+    Frame frame() const {
+        Frame f = m_room.frame();
+        f.depth = {m_depth.handle(), m_depth.view(), VK_FORMAT_R32_SFLOAT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        f.normals = {m_normals.handle(), m_normals.view(), VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        return f;
+    }
+    Output once(const Frame& f) {
+        Output output;
+        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { output = record(m_context, cmd, f); }), gpu::Status::ok);
+        return output;
+    }
+    std::vector<float> pixels(const Output& output) {
+        std::vector<std::byte> bytes;
+        EXPECT_EQ(gpu::download(m_device, output.image, {VK_FORMAT_R16_SFLOAT, m_room.visibleWidth(), m_room.visibleHeight()}, output.layout, bytes), gpu::Status::ok);
+        std::vector<float> result(bytes.size() / 2);
+        for (size_t i = 0; i < result.size(); ++i) {
+            uint16_t half = 0;
+            std::memcpy(&half, bytes.data() + 2 * i, 2);
+            result[i] = test::halfToFloat(half);
+        }
+        return result;
+    }
+    static bool said(const std::string& part) {
+        for (const std::string& line : lines())
+            if (line.find(part) != std::string::npos) return true;
+        return false;
+    }
+};
+
+TEST_F(DoorTest, everyMethodComesThrough) {
+    for (const MethodInfo* info : methods()) {
+        ASSERT_EQ(setMethod(m_context, info->id, {}), Status::ok);
+        const Output output = once(frame());
+        ASSERT_EQ(output.status, Status::ok) << info->id;
+        const std::vector<float> visibility = pixels(output);
+        double sum = 0.0;
+        for (const float v : visibility) sum += v;
+        EXPECT_GT(sum / double(visibility.size()), 0.5);
+        EXPECT_LT(sum / double(visibility.size()), std::string(info->id) == "none" ? 1.01 : 0.97) << info->id;
+    }
+    EXPECT_GT(memoryUse(m_context), 0u);
+}
+
+TEST_F(DoorTest, afterTheFirstFramesNothingIsAllocated) {
+    for (int i = 0; i < 4; ++i) once(frame());
+    const uint64_t before = memoryUse(m_context);
+    for (int i = 0; i < 20; ++i) ASSERT_EQ(once(frame()).status, Status::ok);
+    EXPECT_EQ(memoryUse(m_context), before);
+    EXPECT_GT(timings(m_context).size(), 2u);
+}
+
+TEST_F(DoorTest, aResizeGivesThePictureOfTheNewSize) {
+    ASSERT_EQ(once(frame()).status, Status::ok);
+    m_device.waitIdle();
+    m_room.width = 97;
+    m_room.height = 61;
+    m_room.build();
+    m_depth = m_room.image(m_device, false);
+    m_normals = m_room.image(m_device, true);
+    const Output output = once(frame());
+    ASSERT_EQ(output.status, Status::ok);
+    EXPECT_EQ(pixels(output).size(), size_t(81 * 45));
+}
+
+TEST_F(DoorTest, mistakesAreAStatusAndALineThatNamesTheField) {
+    Context* none = nullptr;
+    DeviceDesc d = desc();
+    d.device = VK_NULL_HANDLE;
+    EXPECT_EQ(create(d, &none), Status::invalid);
+    EXPECT_EQ(none, nullptr);
+    EXPECT_TRUE(said("DeviceDesc::device"));
+    EXPECT_EQ(setMethod(m_context, "nothing", {}), Status::invalid);
+    EXPECT_TRUE(said("there is no method 'nothing'; there are none, hbao"));
+    MethodSettings settings;
+    settings.preset = "no such";
+    EXPECT_EQ(setMethod(m_context, "hbao", settings), Status::invalid);
+    EXPECT_TRUE(said("hbao has no preset 'no such'; it has default"));
+    const Setting wrong{"width", 1.0f};
+    settings.preset = "default";
+    settings.settings = {&wrong, 1};
+    EXPECT_EQ(setMethod(m_context, "hbao", settings), Status::invalid);
+    EXPECT_TRUE(said("hbao has no parameter 'width'"));
+    settings.settings = {};
+    settings.falloff.length = -1.0f;
+    EXPECT_EQ(setMethod(m_context, "hbao", settings), Status::invalid);
+
+    Frame f = frame();
+    f.depth.view = VK_NULL_HANDLE;
+    EXPECT_EQ(once(f).status, Status::invalid);
+    EXPECT_TRUE(said("Frame::depth"));
+    f = frame();
+    f.normals.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    EXPECT_EQ(once(f).status, Status::invalid);
+    EXPECT_TRUE(said("Frame::normals"));
+    f = frame();
+    f.guard = {80, 80};
+    EXPECT_EQ(once(f).status, Status::invalid);
+    EXPECT_TRUE(said("Frame::guard"));
+    f = frame();
+    std::fill(std::begin(f.projection), std::end(f.projection), 0.0f);
+    EXPECT_EQ(once(f).status, Status::invalid);
+    EXPECT_EQ(once(frame()).status, Status::ok);  // and none of it broke the context
+    EXPECT_EQ(record(nullptr, VK_NULL_HANDLE, f).status, Status::invalid);
+    destroy(nullptr);
+}
+
+}  // namespace
+}  // namespace obscura::ao

@@ -1,0 +1,171 @@
+// Every method on analytic frames: what must hold whatever the method.
+#include "ao/room.h"
+
+namespace obscura::ao {
+namespace {
+
+class LibraryTest : public test::GpuTest {
+protected:
+    gpu::Device& m_device = test::device();
+    gpu::ShaderLibrary m_shaders;
+    graph::Graph m_graph{m_device};
+    std::unique_ptr<Library> m_library;
+
+    void SetUp() override {
+        test::GpuTest::SetUp();
+        m_shaders.add(shaders());
+        m_library = std::make_unique<Library>(m_device, m_shaders);
+    }
+    void TearDown() override {
+        m_library.reset();
+        test::GpuTest::TearDown();
+    }
+
+    // Visibility of a room, row by row; empty when the library refused.
+    std::vector<float> run(const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true) {
+        const gpu::Image depth = room.image(m_device, false), normals = room.image(m_device, true);
+        Falloff rho;
+        EXPECT_TRUE(parseFalloff(falloff, rho));
+        const auto import = [&](const char* name, const gpu::Image& image) {
+            graph::External external{image.handle(), image.view(), image.desc()};
+            external.layout = external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+            return m_graph.import(name, external);
+        };
+        m_device.nextFrame();
+        m_graph.begin();
+        Sources sources;
+        sources.depth = import("depth", depth);
+        if (withNormals) sources.normals = import("normals", normals);
+        const graph::ImageId visibility = m_library->add(m_graph, room.frame(), sources, rho, values);
+        if (!visibility) return {};
+        const uint32_t width = room.visibleWidth(), height = room.visibleHeight();
+        gpu::Buffer back;
+        EXPECT_EQ(gpu::Buffer::create(m_device, uint64_t(width) * height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+        const graph::BufferId target = m_graph.import("back", back, graph::Graph::Shared::written);
+        m_graph.pass("read back").use(visibility, graph::Access::transferRead).use(target, graph::Access::transferWrite)
+            .record([&, visibility](const graph::PassContext& c) {
+                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
+                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
+            });
+        gpu::Status status = gpu::Status::ok;
+        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph.execute(cmd); }), gpu::Status::ok);
+        EXPECT_EQ(status, gpu::Status::ok);
+        std::vector<uint16_t> half(size_t(width) * height);
+        std::memcpy(half.data(), back.mapped(), half.size() * 2);
+        std::vector<float> result;
+        for (const uint16_t h : half) result.push_back(test::halfToFloat(h));
+        return result;
+    }
+    static Values preset(const MethodInfo& info, const Preset& preset) {
+        Values values(info);
+        values.apply(preset);
+        return values;
+    }
+};
+
+double mean(const std::vector<float>& values) {
+    double sum = 0.0;
+    for (const float v : values) sum += v;
+    return sum / double(values.size());
+}
+
+TEST_F(LibraryTest, everyPresetGivesVisibilityBetweenZeroAndOne) {
+    test::Room room;
+    room.wall = -5.0f;
+    room.build();
+    for (const MethodInfo* info : methods())
+        for (const Preset& p : info->presets)
+            for (const float v : run(room, preset(*info, p))) {
+                ASSERT_GE(v, 0.0f) << info->id << " " << p.id;
+                ASSERT_LE(v, 1.0f) << info->id << " " << p.id;
+            }
+}
+
+TEST_F(LibraryTest, theSameFrameTwiceIsTheSameToTheBit) {
+    test::Room room;
+    room.wall = -5.0f;
+    room.build();
+    for (const MethodInfo* info : methods()) EXPECT_EQ(run(room, Values(*info)), run(room, Values(*info))) << info->id;
+}
+
+TEST_F(LibraryTest, skyIsOpen) {
+    test::Room room;
+    room.build();
+    std::fill(room.depth.begin(), room.depth.end(), 1e4f);
+    for (const MethodInfo* info : methods())
+        for (const float v : run(room, Values(*info))) ASSERT_EQ(v, 1.0f) << info->id;
+}
+
+TEST_F(LibraryTest, depthsThatAreNoDepthsAreSky) {
+    test::Room room;
+    room.build();
+    const float bad[] = {std::nanf(""), INFINITY, -INFINITY, -3.0f, 0.0f};
+    for (size_t i = 0; i < room.depth.size(); ++i) room.depth[i] = bad[i % std::size(bad)];
+    for (const MethodInfo* info : methods())
+        for (const float v : run(room, Values(*info))) ASSERT_EQ(v, 1.0f) << info->id;
+}
+
+// A wall at 5 m on a floor: the exact obscurance of the crease is known; any method must see it darker than the open floor,
+// and must find nothing (bar its known leak) where nothing is.
+TEST_F(LibraryTest, aCreaseIsDarkAndAnOpenFloorIsNot) {
+    test::Room crease, open;
+    crease.wall = -5.0f;
+    crease.build();
+    open.build();
+    for (const MethodInfo* info : methods()) {
+        if (std::string(info->id) == "none") continue;
+        const std::vector<float> wall = run(crease, Values(*info)), flat = run(open, Values(*info));
+        EXPECT_LT(mean(wall), 0.96) << info->id;
+        EXPECT_GT(mean(flat), 0.94) << info->id;
+    }
+}
+
+TEST_F(LibraryTest, hbaoTunedFindsNothingOnABareFloor) {
+    test::Room room;
+    room.build();
+    const MethodInfo& info = *findMethod("hbao");
+    Values values(info);
+    for (const Preset& p : info.presets)
+        if (std::string(p.id) == "tuned") values = preset(info, p);
+    for (const float v : run(room, values)) ASSERT_GT(v, 0.999f);
+}
+
+TEST_F(LibraryTest, normalsMayBeLeftOut) {
+    test::Room room;
+    room.wall = -5.0f;
+    room.build();
+    for (const MethodInfo* info : methods()) {
+        const std::vector<float> given = run(room, Values(*info)), reconstructed = run(room, Values(*info), "quadratic:2", false);
+        double difference = 0.0;
+        for (size_t i = 0; i < given.size(); ++i) difference += std::abs(given[i] - reconstructed[i]);
+        EXPECT_LT(difference / double(given.size()), 0.004) << info->id;
+    }
+}
+
+TEST_F(LibraryTest, anyFalloffWorksAndALongerOneDarkens) {
+    test::Room room;
+    room.wall = -5.0f;
+    room.build();
+    for (const MethodInfo* info : methods()) {
+        if (std::string(info->id) == "none") continue;
+        for (const char* falloff : {"exponential:0.5", "linear:1.5", "quadratic:1", "wendland:2", "constant:1", "ramp:0.385:1"})
+            EXPECT_LT(mean(run(room, Values(*info), falloff)), 0.995) << info->id << " " << falloff;
+        EXPECT_LT(mean(run(room, Values(*info), "quadratic:2")), mean(run(room, Values(*info), "quadratic:0.5"))) << info->id;
+    }
+}
+
+TEST_F(LibraryTest, oddAndTinySizes) {
+    for (const auto& [width, height, guard] : {std::array{1u, 1u, 0u}, {8u, 8u, 0u}, {17u, 9u, 2u}, {333u, 5u, 1u}, {3u, 257u, 1u}}) {
+        test::Room room;
+        room.width = width;
+        room.height = height;
+        room.guard = guard;
+        room.wall = -4.0f;
+        room.build();
+        for (const MethodInfo* info : methods())
+            for (const float v : run(room, Values(*info))) ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << info->id << " " << width << "x" << height;
+    }
+}
+
+}  // namespace
+}  // namespace obscura::ao

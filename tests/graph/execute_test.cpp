@@ -1,0 +1,220 @@
+// The render graph on a device: data arrives through every kind of hazard, misuse is named, timings add up.
+#include <chrono>
+#include <cstring>
+
+#include "gpu/test_device.h"
+#include "gpu/test_shaders.h"
+#include "graph/graph.h"
+
+namespace obscura::graph {
+namespace {
+
+using gpu::Status;
+
+const char* const kHead = "#version 460\nlayout(local_size_x = 8, local_size_y = 8) in;\nlayout(push_constant) uniform Push { float value; uint loops; };\n";
+
+// Programs of a test: fill (writes a value), add (out = in + value), addTextured (the same through a sampler), work (burns time).
+struct Kit {
+    test::TestShaders shaders;
+    gpu::Program fill, add, addTextured, work, triangle;
+
+    Kit() {
+        const std::string head = kHead;
+        shaders.add("fill.comp", head + "layout(binding = 0, r32f) uniform writeonly image2D target;\n"
+            "void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(value)); }\n");
+        shaders.add("add.comp", head + "layout(binding = 0, r32f) uniform readonly image2D source;\nlayout(binding = 1, r32f) uniform writeonly image2D target;\n"
+            "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(target, p, imageLoad(source, p) + value); }\n");
+        shaders.add("textured.comp", head + "layout(binding = 0) uniform sampler2D source;\nlayout(binding = 1, r32f) uniform writeonly image2D target;\n"
+            "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(target, p, texelFetch(source, p, 0) + value); }\n");
+        shaders.add("work.comp", head + "layout(binding = 0, r32f) uniform writeonly image2D target;\n"
+            "void main() { float x = value; for (uint i = 0u; i < loops; ++i) x = sin(x * 1.7 + float(i)); imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(x)); }\n");
+        shaders.add("full.vert", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex == 1 ? 3 : -1, gl_VertexIndex == 2 ? 3 : -1, 0, 1); }\n");
+        shaders.add("flat.frag", "#version 460\nlayout(push_constant) uniform Push { float value; uint loops; };\nlayout(location = 0) out float color;\nvoid main() { color = value; }\n");
+        gpu::Device& device = test::device();
+        EXPECT_EQ(gpu::Program::compute(device, shaders.library, "fill.comp", {}, fill), Status::ok);
+        EXPECT_EQ(gpu::Program::compute(device, shaders.library, "add.comp", {}, add), Status::ok);
+        EXPECT_EQ(gpu::Program::compute(device, shaders.library, "textured.comp", {}, addTextured), Status::ok);
+        EXPECT_EQ(gpu::Program::compute(device, shaders.library, "work.comp", {}, work), Status::ok);
+        gpu::GraphicsState state;
+        state.colorFormats = {VK_FORMAT_R32_SFLOAT};
+        EXPECT_EQ(gpu::Program::graphics(device, shaders.library, "full.vert", "flat.frag", state, {}, triangle), Status::ok);
+    }
+};
+
+struct Push { float value; uint32_t loops; };
+
+class GraphTest : public test::GpuTest {
+protected:
+    gpu::Device& m_device = test::device();
+    Kit m_kit;
+    Graph m_graph{m_device};
+
+    void begin() { m_device.nextFrame(); m_graph.begin(); }
+    Status submit() {
+        Status status = Status::ok;
+        const Status ran = m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph.execute(cmd); });
+        return status == Status::ok ? ran : status;
+    }
+    ImageId image(const char* name, uint32_t width = 16, uint32_t mips = 1) { return m_graph.image(name, {VK_FORMAT_R32_SFLOAT, width, width, 1, mips}); }
+
+    // Adds a copy of one texel into a buffer; value() reads it after submit().
+    void probe(ImageId id, uint32_t mip = 0) {
+        auto& buffer = m_probes.emplace_back();
+        ASSERT_EQ(gpu::Buffer::create(m_device, 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "probe", buffer), Status::ok);
+        const BufferId target = m_graph.import("probe", buffer, Graph::Shared::written);
+        m_graph.pass("probe").use(id, Access::transferRead).use(target, Access::transferWrite).record([id, mip, handle = buffer.handle()](const PassContext& c) {
+            const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1}, {}, {1, 1, 1}};
+            c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(id), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
+        });
+    }
+    float value(size_t probe) const {
+        float result = 0.0f;
+        std::memcpy(&result, m_probes[probe].mapped(), 4);
+        return result;
+    }
+
+private:
+    std::deque<gpu::Buffer> m_probes;
+};
+
+TEST_F(GraphTest, valuesArriveThroughComputeTexturesAndRenderTargets) {
+    begin();
+    const ImageId a = image("a"), b = image("b"), c = image("c"), d = image("d");
+    m_graph.pass("fill", m_kit.fill).write(a).constants(Push{1.0f, 0}).dispatch(16, 16);
+    m_graph.pass("add", m_kit.add).read(a).write(b).constants(Push{2.0f, 0}).dispatch(16, 16);
+    m_graph.pass("textured", m_kit.addTextured).read(b).write(c).constants(Push{4.0f, 0}).dispatch(16, 16);
+    m_graph.pass("draw", m_kit.triangle).color(d, VkClearColorValue{{9.0f}}).constants(Push{0.5f, 0}).draw(3);
+    const ImageId e = image("e");
+    m_graph.pass("after draw", m_kit.add).read(d).write(e).constants(Push{8.0f, 0}).dispatch(16, 16);
+    probe(c);
+    probe(e);
+    ASSERT_EQ(submit(), Status::ok);
+    EXPECT_FLOAT_EQ(value(0), 7.0f);
+    EXPECT_FLOAT_EQ(value(1), 8.5f);
+}
+
+TEST_F(GraphTest, mipsAreWrittenAndReadOneByOne) {
+    begin();
+    const ImageId a = image("a", 16, 3);
+    m_graph.pass("mip0", m_kit.fill).writeMip(a, 0).constants(Push{1.0f, 0}).dispatch(16, 16);
+    m_graph.pass("mip1", m_kit.add).readMip(a, 0).writeMip(a, 1).constants(Push{1.0f, 0}).dispatch(8, 8);
+    m_graph.pass("mip2", m_kit.add).readMip(a, 1).writeMip(a, 2).constants(Push{1.0f, 0}).dispatch(4, 4);
+    probe(a, 2);
+    ASSERT_EQ(submit(), Status::ok);
+    EXPECT_FLOAT_EQ(value(0), 3.0f);
+}
+
+TEST_F(GraphTest, aSharedImageKeepsWhatItsReaderNeeds) {
+    begin();
+    ImageId last = image("0");
+    m_graph.pass("0", m_kit.fill).write(last).constants(Push{0.0f, 0}).dispatch(16, 16);
+    for (int i = 1; i <= 6; ++i) {
+        const ImageId next = image(std::to_string(i).c_str());
+        m_graph.pass(std::to_string(i), m_kit.add).read(last).write(next).constants(Push{1.0f, 0}).dispatch(16, 16);
+        last = next;
+    }
+    probe(last);
+    ASSERT_EQ(submit(), Status::ok);
+    EXPECT_FLOAT_EQ(value(0), 6.0f);
+    // The last one differs in usage: it is copied from.
+    EXPECT_NE(m_graph.planText().find("image 0: 0 2 4\nimage 1: 1 3 5\nimage 2: 6\n"), std::string::npos) << m_graph.planText();
+}
+
+TEST_F(GraphTest, historyCarriesOverFramesAndIsZeroAfterAnInvalidation) {
+    History history;
+    const auto step = [&] {
+        begin();
+        const Graph::HistoryPair pair = m_graph.history("count", {VK_FORMAT_R32_SFLOAT, 16, 16}, history);
+        m_graph.pass("count", m_kit.add).read(pair.previous).write(pair.current).constants(Push{1.0f, 0}).dispatch(16, 16);
+        probe(pair.current);
+        EXPECT_EQ(submit(), Status::ok);
+        return pair.valid;
+    };
+    EXPECT_FALSE(step());
+    EXPECT_TRUE(step());
+    EXPECT_TRUE(step());
+    EXPECT_FLOAT_EQ(value(2), 3.0f);
+    history.invalidate();
+    EXPECT_FALSE(step());
+    EXPECT_FLOAT_EQ(value(3), 1.0f);
+}
+
+TEST_F(GraphTest, misuseIsOneLineThatNamesThePass) {
+    begin();
+    const ImageId a = image("a");
+    m_graph.pass("lonely", m_kit.add).read(a).constants(Push{}).dispatch(16, 16);
+    EXPECT_EQ(submit(), Status::invalid);
+    EXPECT_TRUE(test::loggedContains("pass 'lonely'") && test::loggedContains("target")) << test::allLogged();
+    begin();
+    const ImageId b = image("b"), c = image("c");
+    m_graph.pass("early", m_kit.add).read(b).write(c).constants(Push{}).dispatch(16, 16);
+    m_graph.output(c);
+    EXPECT_EQ(submit(), Status::invalid);
+    EXPECT_TRUE(test::loggedContains("pass 'early' reads 'b' before anything wrote it")) << test::allLogged();
+    begin();
+    const ImageId d = image("d");
+    m_graph.pass("short", m_kit.fill).write(d).dispatch(16, 16);
+    EXPECT_EQ(submit(), Status::invalid);
+    EXPECT_TRUE(test::loggedContains("wants 8 bytes of constants")) << test::allLogged();
+}
+
+// On a software rasterizer a timestamp pair can read near zero after a render pass: the sum of the passes must be what the
+// host's clock saw, and a pass with four times the work must take about four times as long.
+TEST_F(GraphTest, passTimesAddUpToTheFrameAndToTheClock) {
+    if (!m_device.caps().timestamps) GTEST_SKIP() << "this device has no timestamps";
+    double sum = 0.0, total = 0.0, wall = 0.0, ratio = 0.0;
+    // Other work on the machine can stretch either clock; one clean round of a few is enough.
+    bool held = false;
+    for (int round = 0; round < 8 && !held; ++round) {
+        double milliseconds = 0.0;
+        for (uint32_t frame = 0; frame < m_device.framesInFlight() + 2; ++frame) {
+            begin();
+            const ImageId drawn = image("drawn", 256), one = image("one", 256), four = image("four", 256);
+            m_graph.pass("draw", m_kit.triangle).color(drawn, VkClearColorValue{}).constants(Push{1.0f, 0}).draw(3);
+            m_graph.pass("one", m_kit.work).write(one).constants(Push{0.3f, 300}).dispatch(256, 256);
+            m_graph.pass("four", m_kit.work).write(four).constants(Push{0.3f, 1200}).dispatch(256, 256);
+            probe(drawn);
+            probe(one);
+            probe(four);
+            const auto start = std::chrono::steady_clock::now();
+            ASSERT_EQ(submit(), Status::ok);
+            milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        }
+        begin();
+        const Timings& timings = m_graph.timings();
+        sum = 0.0;
+        double first = 0.0, second = 0.0;
+        for (const PassTime& pass : timings.passes) {
+            sum += pass.milliseconds;
+            if (pass.name == "one") first = pass.milliseconds;
+            if (pass.name == "four") second = pass.milliseconds;
+        }
+        total = timings.milliseconds;
+        ratio = second / first;
+        ASSERT_NEAR(sum, total, 0.001 * total + 0.001);
+        held = std::abs(sum - milliseconds) <= 0.15 * milliseconds + 0.5 && ratio > 2.8 && ratio < 5.5;
+        wall = milliseconds;
+    }
+    EXPECT_TRUE(held) << "sum of passes " << sum << " ms, first to last " << total << " ms, host clock " << wall << " ms, four/one " << ratio;
+}
+
+TEST_F(GraphTest, poolForgetsWhatIsNoLongerUsed) {
+    begin();
+    const ImageId a = image("a", 512);
+    m_graph.pass("fill", m_kit.fill).write(a).constants(Push{}).dispatch(512, 512);
+    m_graph.output(a);
+    ASSERT_EQ(submit(), Status::ok);
+    const uint64_t before = m_graph.poolBytes();
+    EXPECT_GE(before, 512u * 512u * 4u);
+    for (int i = 0; i < 40; ++i) {
+        begin();
+        const ImageId b = image("b", 16);
+        m_graph.pass("fill", m_kit.fill).write(b).constants(Push{}).dispatch(16, 16);
+        m_graph.output(b);
+        ASSERT_EQ(submit(), Status::ok);
+    }
+    EXPECT_LT(m_graph.poolBytes(), 100u << 10);
+}
+
+}  // namespace
+}  // namespace obscura::graph
