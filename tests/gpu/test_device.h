@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/device.h"
+#include "gpu/keep_modules.h"
 
 namespace obscura::gpu {
 inline void PrintTo(Status status, std::ostream* out) { *out << name(status); }
@@ -46,6 +47,7 @@ inline std::unique_ptr<gpu::Device> makeDevice(gpu::DeviceOptions options = {}) 
     std::string error;
     std::unique_ptr<gpu::Device> device = gpu::Device::create(options, error);
     if (!device) skip(error);
+    keepModules();
     if (!device->caps().validation) skip("the Vulkan validation layer is not installed");
     return device;
 }
