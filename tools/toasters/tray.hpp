@@ -1,0 +1,13 @@
+#pragma once
+
+#include "meshkit/mesh.hpp"
+
+namespace obscura::toasters {
+
+/// The tray's floor, which the toys walk on.
+inline constexpr float kTrayFloor = 0.06f;
+
+/// A wooden tray standing on y = 0, with a raised rim and round recesses in its floor.
+kit::Geometry makeTray();
+
+} // namespace obscura::toasters
