@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,12 @@
 namespace obscura::game {
 
 using app::Complaint;
+
+namespace {
+
+constexpr std::string_view kFirstMethod = "hbao";
+
+}  // namespace
 
 std::vector<std::string> methodIds() {
     std::vector<std::string> ids;
@@ -29,6 +36,8 @@ Choice::Choice() {
         m_values.push_back(std::move(values));
     }
     if (m_values.empty()) throw Complaint("this build holds no obscurance method", app::kFailed);
+    // The first entry is the picture without any; whoever starts the game wants to see one at work.
+    for (m_current = m_values.size() - 1; m_current > 0 && std::string_view(info().id) != kFirstMethod; --m_current) {}
 }
 
 void Choice::selectNext(int step) { m_current = size_t(int(m_current + m_values.size()) + step) % m_values.size(); }

@@ -27,6 +27,15 @@ bool isToyRoot(const std::string& name) {
     return digits < lower.size() && std::all_of(lower.begin() + long(digits), lower.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+// The first node of a toy whose translation is animated: it carries the toy along, whatever stands above it.
+int walkerOf(const scene::Model& model, int root) {
+    for (const int node : scene::subtree(model, root))
+        for (const scene::Animation& animation : model.animations)
+            for (const scene::Channel& channel : animation.channels)
+                if (channel.node == node && channel.path == scene::AnimatedPath::translation) return node;
+    return root;
+}
+
 scene::CameraPath orbit(const scene::Bounds& bounds) {
     const scene::Camera first = scene::frame(bounds);
     const glm::vec3 arm = first.eye - first.target;
@@ -115,41 +124,40 @@ void Stage::loadToys(bool wanted) {
         if (wanted) remarks.push_back(fmt::format("{} is not there, so no toasters walk; build the project once, its generator makes it", kToysFile));
         return;
     }
-    const float duration = m_toys->animations.empty() ? 0.0f : m_toys->animations.front().duration;
     for (const int node : m_toys->order)
-        if (isToyRoot(m_toys->nodes[size_t(node)].name)) m_toyRoots.push_back(node);
-    m_toyGround.assign(m_toyRoots.size(), 1e9f);
-    // A toy's root is between its feet; they hop, so the ground is the lowest it ever is.
+        if (isToyRoot(m_toys->nodes[size_t(node)].name)) m_toyKinds.push_back({node, walkerOf(*m_toys, node), 1e9f});
+    // Toys hop, so the ground is where the feet are lowest.
+    const float duration = m_toys->animations.empty() ? 0.0f : m_toys->animations.front().duration;
     constexpr int kSamples = 32;
     for (int i = 0; i < kSamples; ++i) {
         const scene::Pose pose = scene::evaluate(*m_toys, 0, duration * float(i) / kSamples);
-        for (size_t t = 0; t < m_toyRoots.size(); ++t) m_toyGround[t] = std::min(m_toyGround[t], pose.world[size_t(m_toyRoots[t])][3].y);
+        for (Toy& toy : m_toyKinds) toy.ground = std::min(toy.ground, pose.world[size_t(toy.feet)][3].y);
     }
-    if (m_toyRoots.empty()) m_toys = nullptr;
+    if (m_toyKinds.empty()) m_toys = nullptr;
 }
 
 void Stage::placeGroup(const ToyGroup& group) {
-    for (size_t t = 0; m_toys && t < m_toyRoots.size(); ++t) {
+    for (const Toy& toy : m_toyKinds) {
         glm::mat4 placement = glm::translate(glm::mat4(1.0f), group.at);
         placement = glm::rotate(placement, group.turn, glm::vec3(0, 1, 0));
         placement = glm::scale(placement, glm::vec3(group.scale));
-        placement = glm::translate(placement, glm::vec3(0.0f, -m_toyGround[t], 0.0f));
-        world.add({.model = m_toys, .placement = placement, .timeOffset = group.time, .root = m_toyRoots[t]});
+        placement = glm::translate(placement, glm::vec3(0.0f, -toy.ground, 0.0f));
+        world.add({.model = m_toys, .placement = placement, .timeOffset = group.time, .root = toy.root});
     }
 }
 
 bool Stage::dropToy(const glm::vec3& at, float turn, float time) {
     if (!m_toys || m_dropped.size() >= kMostToys) return false;
     // Each next toy is another one, at another moment of its walk, so that a crowd does not march in step.
-    const size_t which = m_dropped.size() % m_toyRoots.size();
+    const Toy& toy = m_toyKinds[m_dropped.size() % m_toyKinds.size()];
     const float offset = 1.37f * float(m_dropped.size());
     const scene::Pose pose = scene::evaluate(*m_toys, 0, time + offset);
-    const glm::vec3 stands(pose.world[size_t(m_toyRoots[which])][3]);
+    const glm::vec3 stands(pose.world[size_t(toy.feet)][3]);
     glm::mat4 placement = glm::translate(glm::mat4(1.0f), glm::vec3(at.x, info.floor, at.z));
     placement = glm::rotate(placement, turn, glm::vec3(0, 1, 0));
     placement = glm::scale(placement, glm::vec3(info.toyScale));
-    placement = glm::translate(placement, glm::vec3(-stands.x, -m_toyGround[which], -stands.z));
-    m_dropped.push_back(world.add({.model = m_toys, .placement = placement, .timeOffset = offset, .root = m_toyRoots[which]}));
+    placement = glm::translate(placement, glm::vec3(-stands.x, -toy.ground, -stands.z));
+    m_dropped.push_back(world.add({.model = m_toys, .placement = placement, .timeOffset = offset, .root = toy.root}));
     return true;
 }
 

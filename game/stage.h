@@ -49,8 +49,13 @@ private:
     void loadToys(bool wanted);
     void placeGroup(const ToyGroup& group);
     std::shared_ptr<const scene::Model> m_toys;
-    std::vector<int> m_toyRoots;      // nodes of m_toys
-    std::vector<float> m_toyGround;   // height of each toy's feet in the model, metres
+    // A toy of m_toys: the node whose subtree it is, the node that carries it along (between its feet), and the lowest
+    // height at which that ever is.
+    struct Toy {
+        int root, feet;
+        float ground;
+    };
+    std::vector<Toy> m_toyKinds;
     std::vector<uint32_t> m_dropped;  // instance ids
     std::shared_ptr<scene::CameraPath> m_chosenPath;  // of --camera path:
 };
