@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
+
+#include "render/materials.h"
 
 namespace obscura::render {
 namespace {
@@ -101,6 +104,7 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
             out[mode]->push_back({&drawable, item, 1});
         }
     }
+    std::copy_if(list.opaque.begin(), list.opaque.end(), std::back_inserter(list.dear), [](const Draw& draw) { return mapsOf(*draw.first->primitive->material) != 0; });
     return list;
 }
 

@@ -32,6 +32,7 @@ struct Draw {
 
 struct DrawList {
     std::vector<Draw> opaque, masked, blended;  // near to far; blended far to near
+    std::vector<Draw> dear;                     // of opaque: textured, so worth knowing to be seen before they are shaded
     std::vector<shared::DrawItem> items;
     size_t drawables = 0, triangles = 0, drawn = 0;  // drawn: triangles after culling
     size_t draws() const { return opaque.size() + masked.size() + blended.size(); }

@@ -17,14 +17,19 @@ void addVertexInput(gpu::GraphicsState& state) {
 }
 
 gpu::Status GBufferPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, GBufferPass& out) {
+    gpu::GraphicsState depth;
+    depth.depthFormat = kDepth;
+    depth.depthTest = depth.depthWrite = true;
+    depth.vertexBindings = {{0, kPositionBytes, VK_VERTEX_INPUT_RATE_VERTEX}};
+    depth.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
+    gpu::Status status = gpu::Program::graphics(device, shaders, "scene/depth.vert", "", depth, {}, out.m_depth);
     gpu::GraphicsState state;
     state.colorFormats = {kNormals, kNormals, kMotion, kBaseColor, kMaterial, kEmission};
     state.depthFormat = kDepth;
     state.depthTest = state.depthWrite = true;
     addVertexInput(state);
-    const gpu::Status status = gpu::Program::graphics(device, shaders, "scene/gbuffer.vert", "scene/gbuffer.frag", state, {{0, 0}}, out.m_solid);
-    return status == gpu::Status::ok ? gpu::Program::graphics(device, shaders, "scene/gbuffer.vert", "scene/gbuffer.frag", state, {{0, 1}}, out.m_masked)
-                                     : status;
+    if (status == gpu::Status::ok) status = MaterialProgram::create(device, shaders, "scene/gbuffer.vert", "scene/gbuffer.frag", state, out.m_surface);
+    return status;
 }
 
 GBuffer GBufferPass::add(graph::Graph& graph, VkExtent2D size, graph::BufferId frame, graph::BufferId items, const DrawList& list,
@@ -33,23 +38,24 @@ GBuffer GBufferPass::add(graph::Graph& graph, VkExtent2D size, graph::BufferId f
     const GBuffer g{image("depth", kDepth), image("normals", kNormals), image("shaded normals", kNormals), image("motion", kMotion),
                     image("base colour", kBaseColor), image("material", kMaterial), image("emission", kEmission)};
     const VkClearColorValue zero{};
-    graph::Pass& pass = graph.pass("gbuffer", m_solid).read(frame).read(items);
+    std::optional<float> far = 0.0f;
+    if (!list.dear.empty()) {
+        graph::Pass& first = graph.pass("depth", m_depth).read(frame).read(items);
+        if (posed.now) first.use(posed.now, graph::Access::vertex);
+        first.depth(g.depth, far).record([&list, posed](const graph::PassContext& c) {
+            recordDraws(c.cmd, c.device.vk(), list.dear, posed.buffers, kPosition, true, nullptr);
+        });
+        far.reset();
+    }
+    graph::Pass& pass = graph.pass("gbuffer", m_surface.base()).read(frame).read(items);
     if (posed.now) pass.use(posed.now, graph::Access::vertex).use(posed.before, graph::Access::vertex).use(posed.frames, graph::Access::vertex);
     pass.color(g.geometric, zero).color(g.shaded, zero).color(g.motion, zero).color(g.baseColor, zero).color(g.material, zero).color(g.emission, zero)
-        .depth(g.depth, 0.0f)
+        .depth(g.depth, far)
         .record([this, &list, posed, &materials](const graph::PassContext& c) {
-            const gpu::Api& vk = c.device.vk();
-            const auto draw = [&](const gpu::Program& program, const std::vector<Draw>& draws) {
-                recordDraws(c.cmd, vk, draws, posed.buffers, kPosition | kPrevious | kFrame | kCoords, true, [&](const ModelGpu& model, uint32_t material) {
-                    const VkDescriptorSet set = materials.get(model, material, program);
-                    vk.CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, program.layout(), 1, 1, &set, 0, nullptr);
-                });
-            };
-            draw(m_solid, list.opaque);
-            if (list.masked.empty()) return;
-            m_masked.refresh();
-            vk.CmdBindPipeline(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_masked.pipeline());
-            draw(m_masked, list.masked);
+            VkPipeline bound = c.program->pipeline();
+            for (const std::vector<Draw>* draws : {&list.opaque, &list.masked})
+                recordDraws(c.cmd, c.device.vk(), *draws, posed.buffers, kPosition | kPrevious | kFrame | kCoords, true,
+                            [&](const ModelGpu& model, uint32_t material) { m_surface.bind(c.cmd, model, material, materials, bound); });
         });
     return g;
 }

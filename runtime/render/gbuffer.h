@@ -1,4 +1,4 @@
-// The G-buffer: opaque and masked surfaces, guard band included.
+// The G-buffer: opaque and masked surfaces. Depth, geometric normals and motion cover the guard band, the rest does not.
 #pragma once
 
 #include "graph/graph.h"
@@ -23,12 +23,14 @@ void addVertexInput(gpu::GraphicsState& state);
 class GBufferPass {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, GBufferPass& out);
+    gpu::Status prepare(const scene::Material& material) { return m_surface.prepare(material); }
     // `list` must stay until the graph has run. `frame`: SceneFrame, `items`: DrawItem.
     GBuffer add(graph::Graph& graph, VkExtent2D size, graph::BufferId frame, graph::BufferId items, const DrawList& list,
                 const Deform::Posed& posed, Materials& materials);
 
 private:
-    gpu::Program m_solid, m_masked;
+    gpu::Program m_depth;
+    MaterialProgram m_surface;
 };
 
 }  // namespace obscura::render

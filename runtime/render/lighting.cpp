@@ -41,7 +41,7 @@ gpu::Status Lighting::create(gpu::Device& device, const gpu::ShaderLibrary& shad
     state.depthTest = true;
     state.blend = true;
     addVertexInput(state);
-    return gpu::Program::graphics(device, shaders, "scene/gbuffer.vert", "scene/blend.frag", state, {}, out.m_blend);
+    return MaterialProgram::create(device, shaders, "scene/gbuffer.vert", "scene/blend.frag", state, out.m_blend);
 }
 
 graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& materials) {
@@ -54,17 +54,16 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
         .read(in.visibility).read(in.shadow.image, Sampling::shadow).write(lit).dispatch(view.visible.x, view.visible.y);
 
     if (!in.draws->blended.empty()) {
-        graph::Pass& pass = graph.pass("blend", m_blend).read(in.frame).read(in.items).read(light).read(in.shadow.image, Sampling::shadow);
+        graph::Pass& pass = graph.pass("blend", m_blend.base()).read(in.frame).read(in.items).read(light).read(in.shadow.image, Sampling::shadow);
         if (in.posed.now)
             pass.use(in.posed.now, graph::Access::vertex).use(in.posed.before, graph::Access::vertex).use(in.posed.frames, graph::Access::vertex);
         const VkRect2D visible{{int32_t(view.guard.x), int32_t(view.guard.y)}, {view.visible.x, view.visible.y}};
         pass.color(lit).depthTest(g.depth).record([this, visible, &materials, draws = in.draws, posed = in.posed](const graph::PassContext& c) {
             const gpu::Api& vk = c.device.vk();
             vk.CmdSetScissor(c.cmd, 0, 1, &visible);
-            recordDraws(c.cmd, vk, draws->blended, posed.buffers, kPosition | kPrevious | kFrame | kCoords, true, [&](const ModelGpu& model, uint32_t material) {
-                const VkDescriptorSet set = materials.get(model, material, m_blend);
-                vk.CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_blend.layout(), 1, 1, &set, 0, nullptr);
-            });
+            VkPipeline bound = c.program->pipeline();
+            recordDraws(c.cmd, vk, draws->blended, posed.buffers, kPosition | kPrevious | kFrame | kCoords, true,
+                        [&](const ModelGpu& model, uint32_t material) { m_blend.bind(c.cmd, model, material, materials, bound); });
         });
     }
 

@@ -12,6 +12,8 @@ class Lighting {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Lighting& out);
 
+    gpu::Status prepare(const scene::Material& material) { return m_blend.prepare(material); }
+
     struct Inputs {
         GBuffer gbuffer;
         graph::ImageId visibility;
@@ -28,7 +30,8 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, Materials& materials);
 
 private:
-    gpu::Program m_light, m_blend, m_tonemap;
+    gpu::Program m_light, m_tonemap;
+    MaterialProgram m_blend;
 };
 
 }  // namespace obscura::render

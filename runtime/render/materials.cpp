@@ -58,13 +58,13 @@ VkSampler Materials::samplerOf(const scene::Sampler& sampler) {
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.magFilter = sampler.linearMag ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
     info.minFilter = sampler.linearMin ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-    info.mipmapMode = sampler.linearMin ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = addressOf(sampler.wrapU);
     info.addressModeV = addressOf(sampler.wrapV);
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     info.maxLod = sampler.mipmaps ? VK_LOD_CLAMP_NONE : 0.0f;
     const gpu::Caps& caps = m_device->caps();
-    // A software rasterizer pays for every tap.
+    // A software rasterizer pays for every tap: one mip level, no anisotropy.
+    info.mipmapMode = sampler.linearMin && !caps.software ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.anisotropyEnable = sampler.mipmaps && sampler.linearMin && caps.maxAnisotropy > 1.0f && !caps.software;
     info.maxAnisotropy = std::min(caps.maxAnisotropy, 8.0f);
     return m_device->sampler(info);
@@ -123,6 +123,45 @@ VkDescriptorSet Materials::make(const ModelGpu& model, uint32_t material, const 
     }
     m_device->vk().UpdateDescriptorSets(m_device->handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);
     return set;
+}
+
+uint32_t mapsOf(const scene::Material& m) {
+    const scene::TextureUse* uses[kTextures] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture, &m.occlusionTexture};
+    uint32_t bits = 0;
+    for (uint32_t slot = 0; slot < kTextures; ++slot)
+        if (uses[slot]->texture >= 0) bits |= 1u << slot;
+    return bits;
+}
+
+Status MaterialProgram::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, std::string vertex, std::string fragment,
+                               gpu::GraphicsState state, MaterialProgram& out) {
+    out.m_device = &device;
+    out.m_shaders = &shaders;
+    out.m_vertex = std::move(vertex);
+    out.m_fragment = std::move(fragment);
+    out.m_state = std::move(state);
+    return gpu::Program::graphics(device, shaders, out.m_vertex, out.m_fragment, out.m_state, {{0, 0}, {1, 0}}, out.m_base);
+}
+
+gpu::Program* MaterialProgram::variant(const scene::Material& material) {
+    const uint32_t masked = material.alphaMode == scene::AlphaMode::mask ? 1 : 0, maps = mapsOf(material);
+    const uint32_t key = maps << 1 | masked;
+    if (key == 0) return &m_base;
+    const auto [at, fresh] = m_variants.try_emplace(key);
+    if (fresh) gpu::Program::graphics(*m_device, *m_shaders, m_vertex, m_fragment, m_state, {{0, masked}, {1, maps}}, at->second);
+    return at->second ? &at->second : nullptr;
+}
+
+Status MaterialProgram::prepare(const scene::Material& material) { return variant(material) ? Status::ok : Status::shaderError; }
+
+void MaterialProgram::bind(VkCommandBuffer cmd, const ModelGpu& model, uint32_t material, Materials& materials, VkPipeline& bound) {
+    gpu::Program* program = variant(model.model->materials[material]);
+    if (!program) program = &m_base;
+    program->refresh();
+    const gpu::Api& vk = m_device->vk();
+    if (program->pipeline() != bound) vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, bound = program->pipeline());
+    const VkDescriptorSet set = materials.get(model, material, m_base);
+    if (set != VK_NULL_HANDLE) vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout(), 1, 1, &set, 0, nullptr);
 }
 
 }  // namespace obscura::render

@@ -35,4 +35,30 @@ private:
     std::map<std::pair<const ModelGpu*, const gpu::Program*>, Sets> m_sets;
 };
 
+// Which of the five texture slots a material fills, as bits.
+uint32_t mapsOf(const scene::Material& material);
+
+// A pair of shaders in as many pipelines as the materials in use differ in kind: textures they have, holes. Specialization
+// constants 0 (masked) and 1 (maps). All variants share their layouts.
+class MaterialProgram {
+public:
+    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, std::string vertex, std::string fragment,
+                              gpu::GraphicsState state, MaterialProgram& out);
+    // Makes the pipeline a material needs, so that drawing need not wait for it.
+    gpu::Status prepare(const scene::Material& material);
+
+    gpu::Program& base() { return m_base; }  // for the graph: the layouts, set 0
+    // Binds pipeline and set 1 for a material. `bound` remembers the pipeline between calls within a pass.
+    void bind(VkCommandBuffer cmd, const ModelGpu& model, uint32_t material, Materials& materials, VkPipeline& bound);
+
+private:
+    gpu::Program* variant(const scene::Material& material);
+    gpu::Device* m_device = nullptr;
+    const gpu::ShaderLibrary* m_shaders = nullptr;
+    std::string m_vertex, m_fragment;
+    gpu::GraphicsState m_state;
+    gpu::Program m_base;
+    std::map<uint32_t, gpu::Program> m_variants;  // by constants
+};
+
 }  // namespace obscura::render

@@ -8,12 +8,15 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "render/chunks.h"
 #include "scene/material.h"
 
 namespace obscura::render {
 namespace {
 
 using gpu::Status;
+
+constexpr size_t kChunkTriangles = 2048;
 
 // Bytes of one buffer to be, grown part by part.
 struct Blob {
@@ -101,8 +104,7 @@ shared::MaterialBlock blockOf(const scene::Material& material) {
                                         &material.emissionTexture, &material.occlusionTexture};
     for (uint32_t slot = 0; slot < 5; ++slot) {
         const scene::TextureUse& use = *uses[slot];
-        if (use.texture >= 0) block.flags.x |= 1u << slot;
-        if (use.texCoord == 1) block.flags.x |= 256u << slot;
+        if (use.texCoord == 1) block.flags.x |= 1u << slot;
         // Counter-clockwise as seen, that is with v pointing down [KHR_texture_transform].
         const float c = std::cos(use.rotation), s = std::sin(use.rotation);
         block.uvMatrix[slot] = {c * use.scale.x, -s * use.scale.x, s * use.scale.y, c * use.scale.y};
@@ -154,12 +156,8 @@ Status ModelGpu::create(gpu::Device& device, std::shared_ptr<const scene::Model>
             gpu.materialIndex = uint32_t(primitive.material);
             gpu.material = &model.materials[size_t(primitive.material)];
             gpu.vertexCount = uint32_t(primitive.positions.size());
-            gpu.indexCount = uint32_t(primitive.indices.size());
             gpu.skinned = !primitive.joints.empty();
             gpu.morphed = !primitive.targets.empty();
-            for (const glm::vec3& position : primitive.positions) gpu.bounds.add(position);
-            gpu.serial = serial++;
-            gpu.indices = indices.add(primitive.indices);
             gpu.coords = vertices.add(coordsOf(primitive));
             gpu.positions = vertices.add(primitive.positions);
             vertices.bytes.resize((vertices.bytes.size() + 15) & ~size_t(15));
@@ -171,7 +169,18 @@ Status ModelGpu::create(gpu::Device& device, std::shared_ptr<const scene::Model>
                 gpu.targets = uint32_t(targets.add(targetsOf(primitive)) / 4);
                 addReach(gpu);
             }
-            primitives.push_back(std::move(gpu));
+            const Chunks chunks = chunksOf(primitive, gpu.deformed() ? size_t(-1) : kChunkTriangles);
+            const VkDeviceSize first = indices.add(chunks.indices);
+            uint32_t begin = 0;
+            for (const uint32_t end : chunks.ends) {
+                gpu.serial = serial++;
+                gpu.indices = first + begin * sizeof(uint32_t);
+                gpu.indexCount = end - begin;
+                gpu.bounds = {};
+                for (uint32_t i = begin; i < end; ++i) gpu.bounds.add(primitive.positions[chunks.indices[i]]);
+                primitives.push_back(gpu);
+                begin = end;
+            }
         }
     }
     for (const scene::Material& material : model.materials) {

@@ -14,6 +14,7 @@ namespace obscura::render {
 // and 4 halves.
 inline constexpr uint32_t kPositionBytes = 12, kFrameBytes = 16, kCoordsBytes = 24;
 
+// A primitive, or a chunk of a large rigid one.
 struct PrimitiveGpu {
     const scene::Primitive* source = nullptr;
     const scene::Material* material = nullptr;
@@ -22,7 +23,7 @@ struct PrimitiveGpu {
     VkDeviceSize positions = 0, frames = 0, coords = 0;  // byte offsets into `vertices`
     VkDeviceSize indices = 0;                            // byte offset into `indices`
     bool skinned = false, morphed = false;
-    scene::Bounds bounds;                                // of the rest positions
+    scene::Bounds bounds;                                // of the rest positions its triangles use
     uint32_t serial = 0;                                 // in its model
 
     // Deformed primitives only, in the units of scene/deform.comp.
@@ -39,7 +40,7 @@ public:
     static gpu::Status create(gpu::Device& device, std::shared_ptr<const scene::Model> model, ModelGpu& out);
 
     std::shared_ptr<const scene::Model> model;
-    std::vector<std::vector<PrimitiveGpu>> meshes;  // as Model::meshes, their primitives
+    std::vector<std::vector<PrimitiveGpu>> meshes;  // as Model::meshes: their primitives, in chunks
     gpu::Buffer vertices, indices;
     gpu::Buffer rest, influences, targets;          // empty when nothing deforms
     gpu::Buffer materials;                          // MaterialBlock every kMaterialStride bytes

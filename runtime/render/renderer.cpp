@@ -66,11 +66,12 @@ ao::Frame frameOf(VkExtent2D size, VkExtent2D guard, const glm::mat4& projection
     return frame;
 }
 
-shared::SceneFrame sceneFrame(const CameraPair& camera, VkExtent2D size) {
+shared::SceneFrame sceneFrame(const CameraPair& camera, VkExtent2D size, VkExtent2D guard) {
     shared::SceneFrame frame{};
     std::memcpy(&frame.projection, &camera.projection, sizeof(frame.projection));
     const float w = float(size.width), h = float(size.height);
     frame.viewport = {w, h, 0.5f * w, 0.5f * h};
+    frame.shown = {float(guard.width / 2), float(guard.height / 2), float((size.width - guard.width + 1) / 2), float((size.height - guard.height + 1) / 2)};
     frame.orthographic = {camera.orthographic ? 1.0f : 0.0f, 0, 0, 0};
     return frame;
 }
@@ -115,6 +116,10 @@ Status Renderer::Impl::load(const scene::World& world) {
         if (status != Status::ok) {
             device.log(gpu::Severity::error, "render: cannot upload " + instance.model->name + ": " + gpu::name(status));
             return status;
+        }
+        for (const scene::Material& material : instance.model->materials) {
+            if (material.alphaMode == scene::AlphaMode::blend) lighting.prepare(material);
+            else gbuffer.prepare(material);
         }
         made->serial = modelSerial++;
         models.emplace(instance.model.get(), std::move(made));
@@ -178,7 +183,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     const Deform::Posed posed = impl.deform.add(graph, impl.actors);
 
     if (impl.draws.items.empty()) impl.draws.items.push_back({});
-    const graph::BufferId frame = graph.upload("scene frame", sceneFrame(camera, size));
+    const graph::BufferId frame = graph.upload("scene frame", sceneFrame(camera, size, guard));
     const graph::BufferId items = graph.upload("draw items", impl.draws.items.data(), impl.draws.items.size() * sizeof(shared::DrawItem));
     const GBuffer g = impl.gbuffer.add(graph, size, frame, items, impl.draws, posed, impl.materials);
 

@@ -7,9 +7,10 @@ OBSCURA_SHARED_BEGIN
 struct SceneFrame {
     mat4 projection;   // eye -> clip, guard band included
     vec4 viewport;     // size.xy in px, then half of it
+    vec4 shown;        // the visible part in whole 2x2 quads: first, one past the last
     vec4 orthographic; // x: 1 or 0
 };
-OBSCURA_SHARED_SIZE(SceneFrame, 96);
+OBSCURA_SHARED_SIZE(SceneFrame, 112);
 
 // Matrices are three rows of a 3x4: dot(row, vec4(p, 1)).
 struct DrawItem {

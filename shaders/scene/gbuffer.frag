@@ -32,16 +32,30 @@ vec2 motion() {
     return clamp(before - gl_FragCoord.xy, -kFarAway, kFarAway);
 }
 
+// Only geometry matters in the guard band: obscurance reads depth, geometric normals and motion there. Decided by whole
+// quads, so that texture derivatives stay defined.
+bool shown() {
+    vec2 quad = floor(gl_FragCoord.xy * 0.5);
+    return all(greaterThanEqual(quad, frame.shown.xy)) && all(lessThan(quad, frame.shown.zw));
+}
+
 void main() {
     vec3 geometric = geometricNormal(inEye, inNormal, frame.orthographic.x > 0.5);  // before discard: needs whole quads
-    vec4 color = baseColorOf(inUv, inColor);
-    if (kMasked && color.a < material.emission.w) discard;
-    vec2 metalRough = metalRoughOf(inUv);
-
     outGeometric = packNormal(geometric);
-    outShaded = packNormal(normalOf(inUv, inNormal, inTangent, gl_FrontFacing ? 1.0 : -1.0));
     outMotion = motion();
-    outBaseColor = vec4(color.rgb, occlusionOf(inUv));
-    outMaterial = vec4(metalRough.y, metalRough.x, material.flags.y != 0u ? 1.0 : 0.0, 0.0);
-    outEmission = vec4(emissionOf(inUv), 1.0);
+    outShaded = outGeometric;
+    outBaseColor = outMaterial = outEmission = vec4(0.0);
+    bool full = shown();
+    if (full || kMasked) {
+        vec4 color = baseColorOf(inUv, inColor);
+        if (kMasked && color.a < material.emission.w) discard;
+        outBaseColor = vec4(color.rgb, 1.0);
+    }
+    if (full) {
+        vec2 metalRough = metalRoughOf(inUv);
+        outShaded = packNormal(normalOf(inUv, inNormal, inTangent, gl_FrontFacing ? 1.0 : -1.0));
+        outBaseColor.a = occlusionOf(inUv);
+        outMaterial = vec4(metalRough.y, metalRough.x, material.flags.y != 0u ? 1.0 : 0.0, 0.0);
+        outEmission = vec4(emissionOf(inUv), 1.0);
+    }
 }

@@ -1,10 +1,7 @@
 // Positions and normals into eye space; where the vertex was last frame. Shared by the G-buffer and blended surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scene/frame.h"
-
-layout(set = 0, binding = 0) uniform FrameUniform { SceneFrame frame; };
-layout(set = 0, binding = 1, std430) readonly buffer Draws { DrawItem draws[]; };
+#include "scene/placed.glsl"
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inPrevious;
@@ -21,12 +18,11 @@ layout(location = 4) out vec4 outColor;
 layout(location = 5) out vec3 outPrevious;  // clip x, y, w
 layout(location = 6) flat out float outStill;
 
-#define DRAW draws[gl_InstanceIndex]
+invariant gl_Position;
 
 void main() {
-    vec4 p = vec4(inPosition, 1.0);
-    outEye = vec3(dot(DRAW.eye[0], p), dot(DRAW.eye[1], p), dot(DRAW.eye[2], p));
-    gl_Position = frame.projection * vec4(outEye, 1.0);
+    outEye = eyeOf(inPosition);
+    gl_Position = clipOf(outEye);
 
     vec4 q = vec4(inPrevious, 1.0);
     outPrevious = vec3(dot(DRAW.previous[0], q), dot(DRAW.previous[1], q), dot(DRAW.previous[2], q));

@@ -10,11 +10,12 @@ layout(set = 1, binding = 3) uniform sampler2D normalMap;
 layout(set = 1, binding = 4) uniform sampler2D emissionMap;
 layout(set = 1, binding = 5) uniform sampler2D occlusionMap;
 
-// The branches below are uniform over a draw: an absent texture costs nothing, and derivatives stay defined.
-bool hasMap(uint slot) { return (material.flags.x & (1u << slot)) != 0u; }
+// Bit n: slot n has a texture. A constant, because rasterizers on a CPU run both sides of a branch.
+layout(constant_id = 1) const uint kMaps = 31u;
+bool hasMap(uint slot) { return (kMaps & (1u << slot)) != 0u; }
 
 vec2 mapCoordinates(uint slot, vec4 uv) {
-    vec2 c = (material.flags.x & (256u << slot)) != 0u ? uv.zw : uv.xy;
+    vec2 c = (material.flags.x & (1u << slot)) != 0u ? uv.zw : uv.xy;
     vec4 m = material.uvMatrix[slot];
     return c.x * m.xy + c.y * m.zw + material.uvOffset[slot].xy;
 }

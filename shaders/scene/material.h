@@ -9,7 +9,7 @@ struct MaterialBlock {
     vec4 baseColor;    // linear
     vec4 emission;     // linear; w: alpha cutoff
     vec4 factors;      // metalness, roughness, normal scale, occlusion strength
-    uvec4 flags;       // x: bit n: slot n has a texture, bit 8+n: it uses the second coordinates; y: unlit
+    uvec4 flags;       // x: bit n: slot n uses the second coordinates; y: unlit
     vec4 uvMatrix[5];  // columns of the 2x2 [KHR_texture_transform]
     vec4 uvOffset[5];  // xy
 };

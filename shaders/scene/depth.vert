@@ -1,0 +1,10 @@
+// Depth ahead of the G-buffer, for surfaces that are dear to shade.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "scene/placed.glsl"
+
+layout(location = 0) in vec3 inPosition;
+
+invariant gl_Position;
+
+void main() { gl_Position = clipOf(eyeOf(inPosition)); }
