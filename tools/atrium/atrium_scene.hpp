@@ -1,0 +1,13 @@
+#pragma once
+
+#include "meshkit/scene.hpp"
+
+namespace obscura::atrium {
+
+/// Length of the looping animation in seconds.
+inline constexpr float kDuration = 10.0f;
+
+/// The whole atrium, animated and ready to write.
+kit::Scene buildScene();
+
+} // namespace obscura::atrium
