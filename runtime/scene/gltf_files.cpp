@@ -1,6 +1,7 @@
 // The bytes behind URIs: data URIs, the BIN chunk and files, which must lie in the model's own folder.
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -72,8 +73,12 @@ Bytes readData(const JsonAt& at, std::string_view uri) {
 
 // The file a URI means. Anything that is not below the model's folder once links are resolved is refused.
 fs::path locate(const Context& context, const JsonAt& at, const std::string& uri) {
+    // A scheme [RFC 3986, 3.1] of more than one letter; one letter is a drive, refused below.
     const size_t colon = uri.find(':');
-    if (colon != uri.npos && colon > 1 && uri.find('/') > colon) at.fail(fmt::format("the address \"{}\" is not fetched; put the file beside the model", uri));
+    const bool scheme = colon != uri.npos && colon > 1 && std::all_of(uri.begin(), uri.begin() + ptrdiff_t(colon), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.';
+    });
+    if (scheme) at.fail(fmt::format("the address \"{}\" is not fetched; put the file beside the model", uri));
     if (context.folder.empty()) at.fail(fmt::format("refers to the file \"{}\", but this model was not opened from a folder", uri));
     const std::string name = percentDecode(uri);
     if (name.empty()) at.fail("is an empty URI");

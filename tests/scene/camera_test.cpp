@@ -152,7 +152,7 @@ TEST_F(CameraFile, PathHasNoJumpsInPlaceOrVelocity) {
             const glm::vec3 eye = path.at(float(t)).eye;
             const glm::vec3 now = (eye - last) / float(kStep);
             EXPECT_LT(glm::length(eye - last), 0.15f) << t;
-            EXPECT_TRUE(t == kStep || glm::length(now - velocity) < 0.6f) << "at " << t;
+            EXPECT_TRUE(t == kStep || glm::length(now - velocity) < 0.15f) << "at " << t << ": " << glm::length(now - velocity);
             velocity = now;
             last = eye;
         }

@@ -181,6 +181,48 @@ TEST(Content, EveryInvalidModelEndsInAModelOrALine) {
 #endif
 }
 
+// The compressed variant of a model is the model, up to `tolerance` metres of rounding.
+void expectSame(const fs::path& plain, const fs::path& packed, float tolerance) {
+    SCOPED_TRACE(packed.string());
+    const auto a = loadGltf(plain), b = loadGltf(packed);
+    EXPECT_EQ(a->triangleCount(), b->triangleCount());
+    World worldA, worldB;
+    worldA.add({a});
+    worldB.add({b});
+    for (const float time : {0.0f, 0.6f}) {
+        const Bounds boxA = bounds(worldA, time), boxB = bounds(worldB, time);
+        EXPECT_LT(glm::length(boxA.min - boxB.min), tolerance);
+        EXPECT_LT(glm::length(boxA.max - boxB.max), tolerance);
+    }
+    // The order of vertices and triangles is the compressor's own, sums over the surface are not.
+    const auto sums = [](const World& world) {
+        glm::dvec4 sum(0.0);
+        for (const PosedPrimitive& entry : pose(world, 0.3f))
+            for (size_t i = 0; i + 2 < entry.primitive->indices.size(); i += 3) {
+                const uint32_t* t = &entry.primitive->indices[i];
+                const glm::vec3 &p = entry.positions[t[0]], &q = entry.positions[t[1]], &r = entry.positions[t[2]];
+                const double area = 0.5 * double(glm::length(glm::cross(q - p, r - p)));
+                sum += glm::dvec4(glm::dvec3(p + q + r) / 3.0 * area, area);
+            }
+        return sum;
+    };
+    const glm::dvec4 sumA = sums(worldA), sumB = sums(worldB);
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(sumA[i], sumB[i], double(tolerance) * sumA.w + 1e-6);
+}
+
+TEST(Content, CompressedModelsAreTheSameModels) {
+    const fs::path folder = content() / "conformance";
+    NEEDS(folder);
+    const fs::path khronos = folder / "khronos" / "Models";
+    for (const char* name : {"Box", "CesiumMilkTruck", "RiggedSimple", "MorphPrimitivesTest", "CesiumMan"})
+        expectSame(khronos / name / "glTF" / (std::string(name) + ".gltf"), khronos / name / "glTF-Draco" / (std::string(name) + ".gltf"), 0.01f);
+    expectSame(khronos / "Duck" / "glTF" / "Duck.gltf", khronos / "Duck" / "glTF-Draco" / "Duck.gltf", 0.02f);
+    const fs::path other = folder / "extras" / "gltf-transform" / "packages" / "extensions" / "test" / "in";
+    expectSame(khronos / "Box" / "glTF" / "Box.gltf", other / "BoxDraco.gltf", 0.01f);
+    expectSame(khronos / "Box" / "glTF" / "Box.gltf", other / "BoxMeshopt.gltf", 0.01f);
+    expectSame(khronos / "Box" / "glTF" / "Box.gltf", other / "BoxMeshopt.glb", 0.01f);
+}
+
 TEST(Content, SponzaIsWhole) {
     const fs::path file = content() / "sponza" / "512" / "Sponza.gltf";
     NEEDS(file);
