@@ -2,17 +2,41 @@
 // threads finish cannot show.
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <thread>
 
 #include <fmt/format.h>
-#include <stb_image.h>
 #include <tiny_gltf.h>
 
 #include "scene/gltf_parts.h"
 
+namespace {
+
+// A damaged PNG may claim chunks of a gigabyte, for which stb_image makes room before it looks for them. What one
+// allocation may take while an image is decoded; per thread, as decoding is.
+thread_local size_t t_largest = 0;
+
+void* allocate(size_t size) { return size <= t_largest ? std::malloc(size) : nullptr; }
+void* reallocate(void* old, size_t size) { return size <= t_largest ? std::realloc(old, size) : nullptr; }
+
+}  // namespace
+
+// A copy of our own, limited to what glTF allows: other libraries of this process export the same names.
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_NO_STDIO
+#define STBI_MALLOC(size) allocate(size)
+#define STBI_REALLOC(old, size) reallocate(old, size)
+#define STBI_FREE(old) std::free(old)
+#include <stb_image.h>
+
 namespace obscura::scene::gltf {
 namespace {
 
+// Room for stb_image's tables and for what rounds up, beside four channels of 16 bits and the file itself.
+constexpr size_t kScratch = size_t(1) << 20;
 constexpr int kWidest = 16384;  // pixels; what graphics devices take at most
 
 Image white(const std::string& name, bool srgb) { return {name, 1, 1, srgb, {255, 255, 255, 255}}; }
@@ -28,12 +52,12 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
         if (!withImages) continue;
         const std::string pointer = fmt::format("/images/{}", uses[i].source);
         int width = 0, height = 0, channels = 0;
+        t_largest = source.image.size() + kScratch;
         if (source.image.size() > size_t(INT32_MAX) ||
             !stbi_info_from_memory(source.image.data(), int(source.image.size()), &width, &height, &channels))
             context.fail(pointer, "is no PNG or JPEG that can be read; save the image again");
         if (width < 1 || height < 1 || width > kWidest || height > kWidest)
             context.fail(pointer, fmt::format("is {} x {} pixels, at most {} x {} are taken", width, height, kWidest, kWidest));
-        // stb_image inflates a PNG into a buffer of its own beside the result, with 16 bits twice as much.
         context.spend(uint64_t(width) * uint64_t(height) * 4, pointer);
         images[i].width = uint32_t(width);
         images[i].height = uint32_t(height);
@@ -48,6 +72,7 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
             const size_t i = decodes[k];
             const auto& bytes = asset.gltf->images[size_t(uses[i].source)].image;
             int width = 0, height = 0, channels = 0;
+            t_largest = size_t(images[i].width) * images[i].height * 8 + bytes.size() * 2 + kScratch;
             uint8_t* pixels = stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4);
             if (pixels == nullptr || uint32_t(width) != images[i].width || uint32_t(height) != images[i].height)
                 faults[i] = fmt::format("cannot be decoded ({}); save the image again", stbi_failure_reason() ? stbi_failure_reason() : "damaged");
