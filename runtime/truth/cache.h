@@ -21,7 +21,7 @@ public:
 
 private:
     void word(uint64_t value);
-    uint64_t m_a = 0x243f6a8885a308d3ull, m_b = 0x13198a2e03707344ull, m_bytes = 0;
+    uint64_t m_a = 0x243f6a8885a308d3ull, m_b = 0x13198a2e03707344ull, m_words = 0;
 };
 
 // Keys. They cover: the posed triangles themselves (so the scene's bytes, time and animation), the models' hashes (textures

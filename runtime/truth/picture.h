@@ -38,7 +38,7 @@ struct Picture {
     void add(std::string name, Plane plane);           // asserts the size; the first one decides it
 };
 
-// Reads a single-part scan-line or tiled file; half, float and uint channels become float. With `names`, exactly those are
+// Reads a single-part file of scan lines; half and float channels become float. With `names`, exactly those are
 // asked for and given, in that order. Throws scene::Error, one line: file, what is wrong (not there, no EXR, truncated,
 // too large, channel missing), what to do.
 Picture readExr(const std::filesystem::path& file, std::initializer_list<std::string_view> names = {});
@@ -46,5 +46,8 @@ Picture readExr(const std::filesystem::path& file, std::initializer_list<std::st
 // float32, ZIP-compressed, to a temporary name and then renamed: on failure (scene::Error) nothing is left behind and an
 // older file stays as it was.
 void writeExr(const std::filesystem::path& file, const Picture& picture);
+
+// Any file in the same way.
+void writeWhole(const std::filesystem::path& file, const void* bytes, size_t count);
 
 }  // namespace obscura::truth

@@ -18,8 +18,11 @@ namespace obscura::truth {
 
 struct ScreenOptions : RayOptions {
     float thickness = std::numeric_limits<float>::infinity();  // m along the view axis, of whatever the depth buffer shows
-    // Rays start this many pixel footprints along the normal, so that a surface's own staircase does not block it.
-    float offset = 1.0f;
+    // A texel knows the depth at its centre only, so a slanted surface is a staircase. Rays start `offset` pixel footprints
+    // along the normal (more than sqrt(1/2) clears the stairs at any slant) and are blocked when more than `tolerance`
+    // footprints behind a texel.
+    float offset = 0.75f;
+    float tolerance = 0.5f;
 };
 
 class ScreenReference {

@@ -19,8 +19,9 @@ struct WorldGeometry {
 struct WorldOptions : RayOptions {
     uint32_t threads = 0;      // 0: as many as the machine has. The result does not depend on it, to the bit.
     bool packets = true;       // eight rays at a time; single rays give the same picture but for rounding
-    // Rays start this far along the normal, times the distance to the camera (metres at 1 m): enough for a float position,
-    // too little to see.
+    // Rays start this far along the normal and as far towards the camera, times the distance to it (metres at 1 m): enough for
+    // a float position, too little to see. Nothing lies between a visible point and the camera, so a point in the corner of
+    // two walls comes free of both.
     float offset = 1e-4f;
 };
 
@@ -30,6 +31,7 @@ public:
         glm::vec3 position;    // world, m
         glm::vec3 normal;      // world, unit; zero: no receiver (sky)
         float scale = 1.0f;    // m; the offset is scaled by it: distance to the camera
+        glm::vec3 towards{0};  // world: unit vector to the camera; zero: none looks
     };
 
     // Triangles of the posed primitives, both sides. Masked texels let rays through (texture alpha x factor x vertex alpha

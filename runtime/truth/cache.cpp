@@ -1,0 +1,174 @@
+// References on disk: one EXR a reference, named by its key.
+#include "truth/cache.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace obscura::truth {
+namespace {
+
+// Raised whenever the same inputs would give another picture: rays, offsets, estimates.
+constexpr uint32_t kVersion = 1;
+constexpr const char* kRays = "rays";
+
+std::string channelName(const char* kind, size_t index, const std::string& name) { return fmt::format("{}.{:02}.{}", kind, index, name); }
+
+void add(Hash& hash, const CapturedFrame& frame) {
+    hash.add(frame.size.x).add(frame.size.y).add(frame.guard.x).add(frame.guard.y).add(frame.near).add(frame.skyDepth);
+    hash.add(&frame.projection, sizeof frame.projection);
+    const glm::mat4 worldFromEye = frame.worldFromEye();
+    hash.add(&worldFromEye, sizeof worldFromEye);
+    hash.add(frame.depth.data(), frame.depth.size() * sizeof(float));
+    hash.add(frame.normals.data(), frame.normals.size() * sizeof(glm::vec3));
+}
+
+void add(Hash& hash, std::span<const RayFalloff> falloffs) {
+    hash.add(falloffs.size());
+    for (const RayFalloff& falloff : falloffs) {
+        hash.add(falloff.name).add(falloff.reach).add(falloff.hard);
+        const float end = std::isfinite(falloff.reach) ? falloff.reach : 100.0f;
+        for (int i = 0; i <= 64 && !falloff.hard; ++i) hash.add(falloff.rho(end * float(i) / 64.0f));
+    }
+}
+
+void add(Hash& hash, const RayOptions& options) {
+    hash.add(options.minRays).add(options.maxRays).add(options.targetError).add(options.seed).add(options.stride);
+}
+
+Reference read(const std::filesystem::path& file) {
+    Picture picture = readExr(file);
+    Reference reference;
+    const auto require = [&](bool good) {
+        if (!good) throw scene::Error(file.string() + ": is not a stored reference");
+    };
+    const auto take = [&](const std::string& prefix) {
+        for (Picture::Channel& channel : picture.channels)
+            if (channel.name.starts_with(prefix)) return &channel;
+        return static_cast<Picture::Channel*>(nullptr);
+    };
+    const auto plane = [&](Picture::Channel& channel) {
+        Plane result(picture.width, picture.height);
+        result.values = std::move(channel.values);
+        for (const float value : result.values) require(std::isfinite(value));
+        return result;
+    };
+    for (size_t i = 0;; ++i) {
+        const std::string prefix = channelName("obscurance", i, "");
+        Picture::Channel* obscurance = take(prefix);
+        if (!obscurance) break;
+        Picture::Channel* error = take(channelName("error", i, ""));
+        require(error);
+        reference.channels.push_back({obscurance->name.substr(prefix.size()), plane(*obscurance), plane(*error)});
+    }
+    Picture::Channel* rays = take(kRays);
+    require(rays && !reference.channels.empty());
+    reference.rays = plane(*rays);
+    for (const float count : reference.rays.values) reference.totalRays += uint64_t(count);
+    reference.fromCache = true;
+    return reference;
+}
+
+void write(const std::filesystem::path& file, const Reference& reference) {
+    Picture picture;
+    for (size_t i = 0; i < reference.channels.size(); ++i) {
+        picture.add(channelName("obscurance", i, reference.channels[i].name), reference.channels[i].obscurance);
+        picture.add(channelName("error", i, reference.channels[i].name), reference.channels[i].error);
+    }
+    picture.add(kRays, reference.rays);
+    writeExr(file, picture);
+}
+
+}  // namespace
+
+void Hash::word(uint64_t value) {
+    m_a = (std::rotl(m_a, 23) ^ value) * 0x9e3779b97f4a7c15ull;
+    m_b = std::rotl(m_b + value * 0xc2b2ae3d27d4eb4full, 31) * 0x165667b19e3779f9ull;
+    ++m_words;
+}
+
+Hash& Hash::add(const void* bytes, size_t count) {
+    const auto* at = static_cast<const unsigned char*>(bytes);
+    word(count);
+    for (; count >= 8; count -= 8, at += 8) {
+        uint64_t value;
+        std::memcpy(&value, at, 8);
+        word(value);
+    }
+    uint64_t rest = 0;
+    if (count) std::memcpy(&rest, at, count), word(rest);
+    return *this;
+}
+
+Hash& Hash::add(std::string_view text) { return add(text.data(), text.size()); }
+
+std::string Hash::hex() const {
+    const auto finish = [](uint64_t x) {
+        x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdull;
+        x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ull;
+        return x ^ (x >> 33);
+    };
+    return fmt::format("{:016x}{:016x}", finish(m_a ^ m_words), finish(m_b + m_a));
+}
+
+std::string worldKey(std::span<const scene::PosedPrimitive> primitives, const WorldGeometry& geometry, const CapturedFrame& frame,
+                     std::span<const RayFalloff> falloffs, const WorldOptions& options) {
+    Hash hash;
+    hash.add("world").add(kVersion).add(geometry.skipMasked).add(geometry.skipBlended).add(options.offset).add(options.packets);
+    for (const scene::PosedPrimitive& posed : primitives) {
+        hash.add(posed.model->hash).add(posed.primitive->material);
+        hash.add(posed.positions.data(), posed.positions.size() * sizeof(glm::vec3));
+        hash.add(posed.primitive->indices.data(), posed.primitive->indices.size() * sizeof(uint32_t));
+    }
+    add(hash, frame);
+    add(hash, falloffs);
+    add(hash, options);
+    return "world-" + hash.hex();
+}
+
+std::string screenKey(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const ScreenOptions& options) {
+    Hash hash;
+    hash.add("screen").add(kVersion).add(options.thickness).add(options.offset).add(options.tolerance);
+    add(hash, frame);
+    add(hash, falloffs);
+    add(hash, options);
+    return "screen-" + hash.hex();
+}
+
+ReferenceCache::ReferenceCache(std::filesystem::path folder, Warn warn) : m_folder(std::move(folder)), m_warn(std::move(warn)) {}
+
+std::filesystem::path ReferenceCache::defaultFolder() {
+    if (const char* own = std::getenv("OBSCURA_CACHE")) return own;
+    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) return std::filesystem::path(xdg) / "obscura";
+    if (const char* home = std::getenv("HOME"); home && *home) return std::filesystem::path(home) / ".cache" / "obscura";
+    return {};
+}
+
+std::filesystem::path ReferenceCache::fileOf(const std::string& key) const { return m_folder / (key + ".exr"); }
+
+Reference ReferenceCache::get(const std::string& key, const std::function<Reference()>& make) {
+    if (m_folder.empty()) return make();
+    const std::filesystem::path file = fileOf(key);
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) {
+        try {
+            return read(file);
+        } catch (const scene::Error& broken) {
+            if (m_warn) m_warn(fmt::format("{}; making the reference again", broken.what()));
+        }
+    }
+    Reference reference = make();
+    try {
+        std::filesystem::create_directories(m_folder, error);
+        write(file, reference);
+    } catch (const scene::Error& unwritable) {
+        if (m_warn && !m_complained) m_warn(fmt::format("{}; going on without a cache", unwritable.what()));
+        m_complained = true;
+    }
+    return reference;
+}
+
+}  // namespace obscura::truth

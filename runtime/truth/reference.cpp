@@ -1,0 +1,68 @@
+// What the two references share: falloffs as callables, summaries.
+#include "truth/reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace obscura::truth {
+namespace {
+
+// ln 65536: what an exponential leaves out beyond is smaller than any error a reference is asked for.
+constexpr float kExponentialReach = 11.0903549f;
+
+constexpr const char* kKinds[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};
+
+std::string nameOf(const ao::Falloff& falloff) {
+    const char* kind = kKinds[size_t(falloff.kind)];
+    return falloff.kind == ao::FalloffKind::ramp ? fmt::format("{}:{}:{}", kind, falloff.length, falloff.end) : fmt::format("{}:{}", kind, falloff.length);
+}
+
+}  // namespace
+
+RayFalloff rayFalloff(const ao::Falloff& falloff) {
+    RayFalloff result;
+    result.name = nameOf(falloff);
+    result.hard = falloff.kind == ao::FalloffKind::constant;
+    if (falloff.kind == ao::FalloffKind::exponential) {
+        result.reach = kExponentialReach * falloff.length;
+        result.rho = [length = falloff.length](float d) { return std::exp(-d / length); };
+    } else {
+        result.reach = ao::reach(falloff);
+        result.rho = [falloff](float d) { return ao::evaluate(falloff, d); };
+    }
+    return result;
+}
+
+RayFalloff rayFalloff(const std::string& text) {
+    ao::Falloff falloff;
+    if (!ao::parseFalloff(text.c_str(), falloff))
+        throw scene::Error(fmt::format("falloff \"{}\": write exponential:L, linear:R, quadratic:R, wendland:R, constant:R or ramp:A:B, lengths in metres", text));
+    return rayFalloff(falloff);
+}
+
+float Reference::meanError(size_t channel) const {
+    double sum = 0.0;
+    size_t count = 0;
+    for (size_t i = 0; i < rays.pixels(); ++i)
+        if (rays.values[i] > 0.0f) {
+            sum += channels[channel].error.values[i];
+            ++count;
+        }
+    return count ? float(sum / double(count)) : 0.0f;
+}
+
+float Reference::maxError(size_t channel) const {
+    const auto& values = channels[channel].error.values;
+    return values.empty() ? 0.0f : *std::max_element(values.begin(), values.end());
+}
+
+size_t Reference::overTarget(float targetError) const {
+    size_t count = 0;
+    for (size_t i = 0; i < rays.pixels(); ++i)
+        count += std::any_of(channels.begin(), channels.end(), [&](const Channel& c) { return c.error.values[i] > targetError; });
+    return count;
+}
+
+}  // namespace obscura::truth
