@@ -12,7 +12,7 @@ using namespace kit;
 namespace {
 
 constexpr float kHalfBay = 0.5f * kBay;
-constexpr int kVoussoirs = 13;
+constexpr int kVoussoirs = 11;
 constexpr int kStepsPerStone = 2;
 /// The wall's own opening lies behind the stones, which form the visible soffit.
 constexpr float kWallRadius = kArchRadius + 0.06f;
@@ -33,6 +33,7 @@ Mesh makeSpandrel()
     const auto strip = [&](glm::vec2 low0, glm::vec2 low1, glm::vec2 high0, glm::vec2 high1) {
         mesh.addFace({low0, kZ}, {low1, kZ}, {high1, kZ}, {high0, kZ}, kPlaster);
         mesh.addFace({low1, -kZ}, {low0, -kZ}, {high0, -kZ}, {high1, -kZ}, kPlaster);
+        mesh.addFace({high0, kZ}, {high1, kZ}, {high1, -kZ}, {high0, -kZ}, kPlaster);
     };
     strip({-kHalfBay, 0}, {-kWallRadius, 0}, {-kHalfBay, kArchHeight}, {-kWallRadius, kArchHeight});
     strip({kWallRadius, 0}, {kHalfBay, 0}, {kWallRadius, kArchHeight}, {kHalfBay, kArchHeight});
@@ -42,11 +43,6 @@ Mesh makeSpandrel()
         strip(a, b, {a.x, kArchHeight}, {b.x, kArchHeight});
         mesh.addFace({a, -kZ}, {b, -kZ}, {b, kZ}, {a, kZ}, kPlaster);
     }
-    mesh.addFace({-kHalfBay, kArchHeight, kZ},
-                 {kHalfBay, kArchHeight, kZ},
-                 {kHalfBay, kArchHeight, -kZ},
-                 {-kHalfBay, kArchHeight, -kZ},
-                 kPlaster);
     for (float side : {-1.0f, 1.0f}) {
         const float inner = side * kWallRadius;
         const float outer = side * kHalfBay;
@@ -82,16 +78,16 @@ Mesh makeVoussoir(int index)
 
 } // namespace
 
-Geometry makeArch()
+Geometry makeArch(bool isBlind)
 {
     Mesh mesh = makeSpandrel();
     for (int i = 0; i < kVoussoirs; ++i)
         mesh.append(makeVoussoir(i));
-    // A round shield in each spandrel.
+    // A round shield in each spandrel; a blind arch's back lies in the wall and needs none.
     for (float side : {-1.0f, 1.0f})
-        for (float face : {-1.0f, 1.0f})
-            mesh.append(lathe({{0.0f, -0.02f}, {0.13f, -0.02f}, {0.135f, 0.014f}, {0.115f, 0.025f}, {0.095f, 0.01f}, {0.0f, 0.03f}},
-                              16),
+        for (float face : isBlind ? std::vector{1.0f} : std::vector{-1.0f, 1.0f})
+            mesh.append(lathe({{0.0f, -0.02f}, {0.13f, -0.02f}, {0.135f, 0.012f}, {0.105f, 0.024f}, {0.085f, 0.008f}, {0.0f, 0.03f}},
+                              12),
                         translation({side * 1.03f, 1.13f, face * (0.5f * kArchDepth - 0.035f)}) *
                             rotation(90.0f * face, {1, 0, 0}));
     boxMapTexcoords(mesh, 2.0f);

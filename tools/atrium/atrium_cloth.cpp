@@ -65,9 +65,9 @@ Geometry makeBannerRod(float width)
 {
     Mesh mesh;
     const float half = 0.5f * width + 0.1f;
-    mesh.append(cylinder(0.02f, 2.0f * half, 0.004f, 14), translation({half, 0.012f, 0}) * rotation(90, {0, 0, 1}));
+    mesh.append(cylinder(0.02f, 2.0f * half, 0.004f, 10), translation({half, 0.012f, 0}) * rotation(90, {0, 0, 1}));
     for (float side : {-1.0f, 1.0f}) {
-        mesh.append(sphere(0.04f, 14, 8), translation({side * half, 0.012f, 0}));
+        mesh.append(sphere(0.04f, 10, 6), translation({side * half, 0.012f, 0}));
         // The bracket back to the wall.
         mesh.append(chamferBox({-0.016f, -0.012f, -0.42f}, {0.016f, 0.032f, 0.02f}, 0.005f),
                     translation({side * (half - 0.06f), 0, 0}));

@@ -16,8 +16,8 @@ constexpr float kBaseHeight = 0.27f;
 constexpr float kCapitalHeight = 0.42f;
 constexpr float kPlinthHalf = 0.31f;
 constexpr float kPlinthHeight = 0.11f;
-constexpr int kFlutes = 16;
-constexpr int kPointsPerFlute = 3;
+constexpr int kFlutes = 14;
+constexpr int kPointsPerFlute = 4;
 
 /// The shaft narrows upwards along a gentle curve, so that it does not look pinched.
 float entasis(float t)
@@ -30,8 +30,8 @@ Ring flutedRing(float radius, float depth, float y)
     Ring ring;
     for (int i = 0; i < kFlutes * kPointsPerFlute; ++i) {
         const float angle = glm::two_pi<float>() * static_cast<float>(i) / (kFlutes * kPointsPerFlute);
-        // One point lies on the ridge between flutes, the other two in the hollow.
-        constexpr float kHollow[kPointsPerFlute] = {0.0f, 1.0f, 1.0f};
+        // One point lies on the ridge between flutes, the other three in the hollow.
+        constexpr float kHollow[kPointsPerFlute] = {0.0f, 0.72f, 1.0f, 0.72f};
         const float r = radius * (1.0f - depth * kHollow[i % kPointsPerFlute]);
         ring.emplace_back(r * std::sin(angle), y, r * std::cos(angle));
     }
@@ -46,15 +46,15 @@ Mesh makeShaft(float low, float high)
     const auto add = [&](float y, float depth) {
         rings.push_back(flutedRing(kShaftRadius * entasis((y - low) / (high - low)), depth, y));
     };
+    rings.push_back(Ring(kFlutes * kPointsPerFlute, {0.0f, low, 0.0f}));
     add(low, 0.0f);
     add(low + kFade, 0.0f);
-    add(low + 1.4f * kFade, 0.7f * kFluteDepth);
-    constexpr int kMiddle = 6;
+    constexpr int kMiddle = 3;
     for (int i = 0; i <= kMiddle; ++i)
-        add(glm::mix(low + 2.0f * kFade, high - 2.0f * kFade, static_cast<float>(i) / kMiddle), kFluteDepth);
-    add(high - 1.4f * kFade, 0.7f * kFluteDepth);
+        add(glm::mix(low + 1.6f * kFade, high - 1.6f * kFade, static_cast<float>(i) / kMiddle), kFluteDepth);
     add(high - kFade, 0.0f);
     add(high, 0.0f);
+    rings.push_back(Ring(kFlutes * kPointsPerFlute, {0.0f, high, 0.0f}));
     return loft(rings);
 }
 
@@ -69,8 +69,8 @@ Mesh makeLeaves(float bottom, float radius)
             const float height = row == 0 ? 0.13f : 0.22f;
             // A tongue that rises along the bell and curls outwards at its tip.
             std::vector<Ring> rings;
-            for (int s = 0; s <= 4; ++s) {
-                const float t = static_cast<float>(s) / 4.0f;
+            for (int s = 0; s <= 3; ++s) {
+                const float t = static_cast<float>(s) / 3.0f;
                 const float curl = t * t * t;
                 const float width = 0.06f * std::sqrt(std::max(0.0f, 1.0f - curl));
                 const glm::vec3 spine(0.0f, bottom + height * (t - 0.25f * curl), radius + 0.015f + 0.075f * curl);
@@ -102,8 +102,8 @@ Geometry makeColumn(float height)
     const float r = kShaftRadius;
     Profile base{{0.0f, kPlinthHeight}};
     const auto roll = [&](float inner, float middle, float half) {
-        for (int i = 0; i <= 4; ++i) {
-            const float angle = glm::radians(-80.0f + 40.0f * static_cast<float>(i));
+        for (int i = 0; i <= 3; ++i) {
+            const float angle = glm::radians(-75.0f + 50.0f * static_cast<float>(i));
             base.emplace_back(inner + half * std::cos(angle), middle + half * std::sin(angle));
         }
     };
@@ -112,7 +112,7 @@ Geometry makeColumn(float height)
     roll(r + 0.018f, kPlinthHeight + 0.122f, 0.024f);
     base.emplace_back(r + 0.008f, kBaseHeight - 0.008f);
     base.emplace_back(0.0f, kBaseHeight - 0.004f);
-    mesh.append(lathe(base, 24));
+    mesh.append(lathe(base, 20));
 
     const float neck = height - kCapitalHeight;
     mesh.append(makeShaft(kBaseHeight - 0.006f, neck + 0.01f));
@@ -129,12 +129,12 @@ Geometry makeColumn(float height)
                        {top + 0.1f, neck + 0.29f},
                        {top + 0.1f, neck + 0.31f},
                        {0.0f, neck + 0.312f}};
-    mesh.append(lathe(bell, 24));
+    mesh.append(lathe(bell, 20));
     mesh.append(makeLeaves(neck + 0.012f, top));
     // Small scrolls under the corners of the abacus.
     for (int corner = 0; corner < 4; ++corner) {
         const glm::mat4 turn = rotation(45.0f + 90.0f * static_cast<float>(corner), {0, 1, 0});
-        mesh.append(cylinder(0.042f, 0.07f, 0.012f, 10),
+        mesh.append(cylinder(0.042f, 0.07f, 0.012f, 8),
                     turn * translation({0.035f, neck + 0.258f, 0.3f}) * rotation(90, {0, 0, 1}));
     }
     mesh.append(chamferBox({-0.29f, neck + 0.3f, -0.29f}, {0.29f, neck + 0.355f, 0.29f}, 0.014f));
@@ -167,7 +167,7 @@ Geometry makeBaluster()
     Mesh mesh;
     const Profile turned{{0.0f, 0.115f},  {0.065f, 0.115f}, {0.065f, 0.165f}, {0.036f, 0.185f}, {0.052f, 0.23f},
                          {0.072f, 0.3f},  {0.062f, 0.39f},  {0.036f, 0.51f},  {0.03f, 0.61f},   {0.036f, 0.66f},
-                         {0.055f, 0.68f}, {0.055f, 0.71f},  {0.04f, 0.73f},   {0.06f, 0.795f},  {0.0f, 0.795f}};
+                         {0.058f, 0.69f}, {0.04f, 0.72f},   {0.06f, 0.795f},  {0.0f, 0.795f}};
     mesh.append(lathe(turned, 10));
     boxMapTexcoords(mesh, 2.0f);
     smoothNormals(mesh, 50.0f);

@@ -28,7 +28,7 @@ Geometry makePot()
                           {0.28f, 0.54f}, {0.275f, 0.56f}, {0.3f, 0.572f},   {0.33f, 0.58f},  {0.34f, 0.6f},
                           {0.33f, 0.618f}, {0.3f, kPotHeight}, {0.27f, 0.61f}, {0.255f, 0.58f}, {0.25f, 0.54f},
                           {0.0f, 0.55f}};
-    Mesh mesh = lathe(profile, 32, [&](std::size_t ring, std::size_t) {
+    Mesh mesh = lathe(profile, 24, [&](std::size_t ring, std::size_t) {
         return ring + 2 == profile.size() ? kSoil : kTerracotta;
     });
     return finished(std::move(mesh), 60.0f);
@@ -66,7 +66,7 @@ Geometry makeChainLink()
 {
     // Two links at right angles, so that copies along y make a chain; the step is 0.24 m.
     Mesh mesh;
-    const Mesh one = link(0.045f, 0.034f, 0.0105f, 20, 8);
+    const Mesh one = link(0.045f, 0.034f, 0.0105f, 16, 7);
     mesh.append(one, rotation(90, {1, 0, 0}));
     mesh.append(one, translation({0, -0.12f, 0}) * rotation(90, {0, 1, 0}) * rotation(90, {1, 0, 0}));
     mesh.setMaterial(kIron);

@@ -12,13 +12,14 @@ kit::Geometry makeColumn(float height);
 /// A square pier for the court's corners, as high as a column.
 kit::Geometry makePier(float height);
 /// One bay of arcade from springing line to the storey's floor, along x, centred on the origin.
-kit::Geometry makeArch();
+/// A blind arch is for setting half into a wall.
+kit::Geometry makeArch(bool isBlind);
 /// A turned baluster, and one bay of plinth and hand rail for it to stand between.
 kit::Geometry makeBaluster();
 kit::Geometry makeRail();
 /// Number and spacing of the balusters in a bay.
-inline constexpr int kBalusters = 7;
-inline constexpr float kBalusterSpacing = 0.28f;
+inline constexpr int kBalusters = 6;
+inline constexpr float kBalusterSpacing = 0.32f;
 
 /// Bevelled tiles for the floor: the court or the walk round it.
 kit::Geometry makeCourtFloor();

@@ -124,7 +124,8 @@ void Builder::addShell()
 
 void Builder::addArcades()
 {
-    const int arch = addMesh("arch", makeArch());
+    const int arch = addMesh("arch", makeArch(false));
+    const int blindArch = addMesh("blind arch", makeArch(true));
     const int rail = addMesh("rail", makeRail());
     const int baluster = addMesh("baluster", makeBaluster());
     const int brackets = addMesh("brackets", makeBrackets());
@@ -151,7 +152,7 @@ void Builder::addArcades()
         }
         // The outer wall repeats the arcade in relief.
         for (const Bay& bay : baysAlong(kOuterX, kOuterZ))
-            place(arch, bay.place + kUp * (floor + height), bay.degrees);
+            place(blindArch, bay.place + kUp * (floor + height), bay.degrees);
     }
     for (const Bay& bay : baysAlong(kCourtX, kCourtZ)) {
         const glm::vec3 foot = bay.place + kUp * kStoreyHeight;

@@ -69,13 +69,13 @@ Geometry makeCourtFloor()
 
 Geometry makeWalkFloor()
 {
-    constexpr int kAcross = 5;
+    constexpr int kAcross = 4;
     Mesh mesh;
     for (float side : {-1.0f, 1.0f}) {
         const float z0 = side > 0.0f ? kCourtZ : -kOuterZ;
-        addTiles(mesh, {-kOuterX, z0}, {kOuterX, z0 + kWalk}, 44, kAcross, false);
+        addTiles(mesh, {-kOuterX, z0}, {kOuterX, z0 + kWalk}, 36, kAcross, false);
         const float x0 = side > 0.0f ? kCourtX : -kOuterX;
-        addTiles(mesh, {x0, -kCourtZ}, {x0 + kWalk, kCourtZ}, kAcross, 13, false);
+        addTiles(mesh, {x0, -kCourtZ}, {x0 + kWalk, kCourtZ}, kAcross, 10, false);
     }
     return finished(std::move(mesh), 1.6f);
 }
@@ -187,7 +187,7 @@ Geometry makeCornice(float y, float projection)
 
 Geometry makeBrackets()
 {
-    constexpr int kPerBay = 4;
+    constexpr int kPerBay = 3;
     Mesh mesh;
     // Seen from the side: a console that swells towards the cornice it carries.
     const Profile side{{-0.05f, -0.36f}, {0.03f, -0.36f}, {0.07f, -0.33f},  {0.085f, -0.27f},
