@@ -54,7 +54,7 @@ gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
 }
 
 graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame) {
-    const gpu::ImageDesc& desc = graph.desc(source);
+    const gpu::ImageDesc desc = graph.desc(source);
     shared::ViewBlock block{};
     block.visible = frame.visible;
     block.mode = mode;

@@ -1,0 +1,39 @@
+// A renderer under test: renders frames and hands back what they hold.
+#pragma once
+
+#include "gpu/test_device.h"
+#include "models.h"
+#include "render/renderer.h"
+
+namespace obscura::test {
+
+struct Pixels {
+    uint32_t width = 0, height = 0;
+    std::vector<std::byte> bytes;
+    template <class T> const T& at(uint32_t x, uint32_t y) const { return reinterpret_cast<const T*>(bytes.data())[size_t(y) * width + x]; }
+    bool operator==(const Pixels&) const = default;
+};
+
+struct Picture {
+    VkExtent2D size{}, guard{};
+    Pixels color, visibility, depth, normals, motion;
+    glm::vec2 motionAt(uint32_t x, uint32_t y) const;     // px, guard band included
+    glm::vec3 normalAt(uint32_t x, uint32_t y) const;     // eye space
+    glm::vec3 colorAt(float x, float y) const;            // bilinear, levels, pixel centres at whole numbers + 0.5
+};
+
+class Bench {
+public:
+    Bench();
+    Picture render(const scene::World& world, const render::FrameOptions& options);
+    render::FrameOptions options() const;  // 320x240, no obscurance
+    render::Renderer& renderer() { return *m_renderer; }
+
+private:
+    gpu::ShaderLibrary m_shaders;
+    std::unique_ptr<render::Renderer> m_renderer;
+    std::unique_ptr<graph::Graph> m_graph;
+    ao::Values m_none;
+};
+
+}  // namespace obscura::test

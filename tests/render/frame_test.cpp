@@ -1,0 +1,224 @@
+// The frame as a whole: guard band, culling, determinism, normals, views, what is released.
+#include <cmath>
+#include <limits>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "bench.h"
+
+namespace obscura::test {
+namespace {
+
+class Frame : public GpuTest {};
+
+scene::World mixedWorld() {
+    scene::World world;
+    world.add(instanceOf(turningCube(), {-0.9f, 0.2f, 0.3f}));
+    world.add(instanceOf(bendingBar(), {0.9f, 0, -0.5f}));
+    world.add(instanceOf(wavingPatch(), {0, 0.3f, -1.5f}));
+    world.add(instanceOf(floorPlate(), {0, -0.8f, 0}));
+    scene::Instance mirrored = instanceOf(turningCube(), {0.0f, 0.9f, 0.0f});
+    mirrored.placement = mirrored.placement * glm::scale(glm::mat4(1.0f), glm::vec3(-0.4f, 0.4f, 0.4f));
+    world.add(mirrored);
+    return world;
+}
+
+TEST_F(Frame, guardBandAddsAndChangesNothing) {
+    Bench bench;
+    const scene::World world = mixedWorld();
+    render::FrameOptions options = bench.options();
+    options.time = 0.35f;
+    options.guard = 0.0f;
+    const Picture bare = bench.render(world, options);
+    options.guard = 0.2f;
+    const Picture guarded = bench.render(world, options);
+    EXPECT_EQ(guarded.guard.width, 64u);
+    EXPECT_EQ(guarded.guard.height, 48u);
+    EXPECT_EQ(guarded.size.width, 448u);
+    size_t different = 0, covered = 0;
+    for (uint32_t y = 0; y < 240; ++y)
+        for (uint32_t x = 0; x < 320; ++x) {
+            const float a = bare.depth.at<float>(x, y), b = guarded.depth.at<float>(x + 64, y + 48);
+            covered += a > 0.0f;
+            different += std::abs(a - b) > 1e-5f * std::max(a, b);
+        }
+    EXPECT_GT(covered, 30000u);
+    EXPECT_LT(different, 20u);  // edges through pixel centres
+    EXPECT_TRUE(guarded.depth.at<float>(20, 240) > 0.0f) << "the floor goes on in the guard band";
+}
+
+TEST_F(Frame, cullingIsInvisible) {
+    Bench bench;
+    scene::World world = mixedWorld();
+    for (int i = 0; i < 12; ++i) world.add(instanceOf(bendingBar(), {3.0f * std::cos(float(i)), 0.0f, 5.0f * std::sin(float(i))}));
+    render::FrameOptions options = bench.options();
+    options.camera.eye = {0, 0.4f, 1.0f};
+    for (const float turn : {0.0f, 1.3f, 2.6f, 4.0f, 5.2f}) {
+        options.camera.target = options.camera.eye + glm::vec3(std::sin(turn), -0.1f, -std::cos(turn));
+        options.time = turn * 0.15f;
+        options.cut = true;
+        options.cull = true;
+        const Picture culled = bench.render(world, options);
+        const size_t drawn = bench.renderer().facts().drawn;
+        options.cull = false;
+        const Picture whole = bench.render(world, options);
+        EXPECT_LT(drawn, bench.renderer().facts().drawn);
+        EXPECT_EQ(culled.color, whole.color) << turn;
+        EXPECT_EQ(culled.depth, whole.depth) << turn;
+        EXPECT_EQ(culled.normals, whole.normals) << turn;
+    }
+}
+
+TEST_F(Frame, sameFrameTwiceIsTheSame) {
+    const scene::World world = mixedWorld();
+    Bench first, second;
+    const ao::Values hbao(*ao::findMethod("hbao"));
+    Picture pictures[3];
+    int at = 0;
+    for (Bench* bench : {&first, &second, &second}) {
+        render::FrameOptions options = bench->options();
+        options.method = &hbao;
+        options.time = 0.6f;
+        options.cut = true;
+        pictures[at++] = bench->render(world, options);
+    }
+    for (int i = 1; i < 3; ++i) {
+        EXPECT_EQ(pictures[0].color, pictures[i].color);
+        EXPECT_EQ(pictures[0].visibility, pictures[i].visibility);
+        EXPECT_EQ(pictures[0].depth, pictures[i].depth);
+        EXPECT_EQ(pictures[0].normals, pictures[i].normals);
+    }
+}
+
+// Geometric normals are the triangles', whatever the vertex normals say, and face the viewer.
+TEST_F(Frame, normalsAreTheTrianglesAndFaceTheViewer) {
+    Bench bench;
+    scene::World world;
+    scene::Material twoSided;
+    twoSided.doubleSided = true;
+    world.add(instanceOf(floorPlate(), {0, -0.8f, 0}));
+    auto back = with(floorPlate(), twoSided);  // seen from below
+    for (glm::vec3& n : back->meshes[0].primitives[0].normals) n = glm::vec3(0.6f, 0.8f, 0.0f);
+    world.add(instanceOf(back, {0, 2.5f, 0}));
+    render::FrameOptions options = bench.options();
+    const Picture picture = bench.render(world, options);
+    const glm::mat3 eye(options.camera.view());
+    const float epsilon = 2e-3f;
+    size_t up = 0, down = 0, wrong = 0;
+    for (uint32_t y = 0; y < picture.size.height; ++y)
+        for (uint32_t x = 0; x < picture.size.width; ++x) {
+            if (picture.depth.at<float>(x, y) <= 0.0f) continue;
+            const glm::vec3 world_ = glm::transpose(eye) * picture.normalAt(x, y);
+            if (glm::length(world_ - glm::vec3(0, 1, 0)) < epsilon) ++up;
+            else if (glm::length(world_ - glm::vec3(0, -1, 0)) < epsilon) ++down;
+            else ++wrong;
+        }
+    EXPECT_GT(up, 5000u);
+    EXPECT_GT(down, 5000u);
+    EXPECT_EQ(wrong, 0u);
+}
+
+// Mirrored instances show their outsides: no hole and no inside where the plain one has a face.
+TEST_F(Frame, mirroredInstancesKeepTheirFaces) {
+    Bench bench;
+    scene::World world;
+    scene::Instance cube = instanceOf(turningCube());
+    cube.animation = -1;
+    world.add(cube);
+    render::FrameOptions options = bench.options();
+    options.camera.eye = {0.0f, 0.8f, 3.0f};
+    const Picture plain = bench.render(world, options);
+    world.instances()[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
+    options.cut = true;
+    const Picture mirrored = bench.render(world, options);
+    size_t different = 0;
+    for (size_t i = 0; i < size_t(plain.size.width) * plain.size.height; ++i) {
+        const uint32_t x = uint32_t(i % plain.size.width), y = uint32_t(i / plain.size.width);
+        different += std::abs(plain.depth.at<float>(x, y) - mirrored.depth.at<float>(x, y)) > 1e-5f;
+    }
+    EXPECT_LT(different, 50u);
+}
+
+TEST_F(Frame, masksCutAndBlendsStayOutOfDepth) {
+    Bench bench;
+    render::FrameOptions options = bench.options();
+    const auto covered = [&](const scene::Material& material, bool skipMasked = false) {
+        scene::World world;
+        world.add(instanceOf(with(wavingPatch(), material)));
+        options.skipMasked = skipMasked;
+        options.cut = true;
+        const Picture picture = bench.render(world, options);
+        size_t count = 0;
+        for (uint32_t y = 0; y < picture.size.height; ++y)
+            for (uint32_t x = 0; x < picture.size.width; ++x) count += picture.depth.at<float>(x, y) > 0.0f;
+        return std::pair(count, picture.colorAt(160.5f, 120.5f));
+    };
+    scene::Material material;
+    material.metallic = 0.0f;
+    const auto [whole, wholeColor] = covered(material);
+    EXPECT_GT(whole, 5000u);
+    material.alphaMode = scene::AlphaMode::mask;
+    EXPECT_EQ(covered(material).first, whole);
+    EXPECT_EQ(covered(material, true).first, 0u);
+    material.baseColor.a = 0.4f;
+    EXPECT_EQ(covered(material).first, 0u);
+    material.alphaMode = scene::AlphaMode::blend;
+    const auto [blended, blendedColor] = covered(material);
+    EXPECT_EQ(blended, 0u);
+    material.baseColor.a = 0.0f;
+    const auto [clear, clearColor] = covered(material);
+    EXPECT_EQ(clear, 0u);
+    EXPECT_GT(glm::length(blendedColor - clearColor), 8.0f) << "a blended surface is seen";
+}
+
+TEST_F(Frame, viewsParseAndShow) {
+    Bench bench;
+    const scene::World world = mixedWorld();
+    for (const render::View view : render::kViews) {
+        render::View parsed = render::View::pass;
+        std::string pass;
+        ASSERT_TRUE(render::parseView(render::name(view), parsed, pass));
+        EXPECT_EQ(parsed, view);
+        render::FrameOptions options = bench.options();
+        options.view = view;
+        const Picture picture = bench.render(world, options);
+        EXPECT_EQ(picture.color.width, 320u);
+        if (view == render::View::visibility) {
+            EXPECT_EQ(picture.color.at<glm::u8vec4>(100, 100), glm::u8vec4(255)) << "nothing is obscured";
+        }
+    }
+    for (const char* text : {"pass:gbuffer", "pass:shadow", "pass:lighting", "pass:prepare.depth", "pass:no such pass"}) {
+        render::FrameOptions options = bench.options();
+        ASSERT_TRUE(render::parseView(text, options.view, options.passView));
+        bench.render(world, options);
+    }
+    render::View view;
+    std::string pass;
+    EXPECT_FALSE(render::parseView("nonsense", view, pass));
+    EXPECT_FALSE(render::parseView("pass:", view, pass));
+}
+
+TEST_F(Frame, removedModelsLeaveMemory) {
+    Bench bench;
+    scene::World world;
+    world.add(instanceOf(floorPlate()));
+    bench.render(world, bench.options());
+    device().waitIdle();
+    const uint64_t before = device().memoryUse();
+    const uint64_t bytes = bench.renderer().facts().geometryBytes;
+    auto big = bendingBar();
+    big->images[0].width = big->images[0].height = 1024;
+    big->images[0].rgba.assign(4u << 20, 200);
+    const uint32_t id = world.add(instanceOf(big));
+    bench.render(world, bench.options());
+    EXPECT_GT(device().memoryUse(), before + (4u << 20));
+    EXPECT_GT(bench.renderer().facts().geometryBytes, bytes);
+    world.remove(id);
+    bench.render(world, bench.options());
+    device().waitIdle();
+    EXPECT_EQ(bench.renderer().facts().geometryBytes, bytes);
+    EXPECT_LT(device().memoryUse(), before + (1u << 20));
+}
+
+}  // namespace
+}  // namespace obscura::test
