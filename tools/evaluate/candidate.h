@@ -1,0 +1,32 @@
+// What is judged: a method with the values of one preset and the settings over them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ao/method.h"
+
+namespace obscura::evaluate {
+
+struct Candidate {
+    ao::Values values;
+    std::string preset;
+    std::vector<std::string> settings;  // "steps=4", over the preset
+    const ao::MethodInfo& info() const { return values.info(); }
+    std::string label() const;          // "hbao 8x4 steps=4"; the default preset goes without saying
+    std::string fileName() const;       // "hbao.8x4", settings included; letters, digits, dots, dashes
+};
+
+// Every method named (or "all") with every preset named (or "all") that it has, `sets` applied: "METHOD.PARAMETER=VALUE", or
+// "PARAMETER=VALUE" for every chosen method that has the parameter. Throws app::Complaint that lists what there is.
+std::vector<Candidate> candidates(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
+                                  const std::vector<std::string>& sets);
+
+struct FalloffChoice {
+    ao::Falloff falloff;
+    std::string text;        // "quadratic:2"
+    std::string fileName() const;  // "quadratic_2"
+};
+std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts);  // throws app::Complaint
+
+}  // namespace obscura::evaluate

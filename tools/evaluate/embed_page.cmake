@@ -1,0 +1,10 @@
+# Writes the page's files as C++ strings: cmake -DPAGE=folder -DOUT=page.cpp -P embed_page.cmake
+set(text "// Generated from tools/evaluate/page. Do not edit.\n#include \"page.h\"\n\nnamespace obscura::evaluate {\n\n")
+foreach(kind html css js)
+  string(SUBSTRING ${kind} 0 1 first)
+  string(TOUPPER ${first} first)
+  string(SUBSTRING ${kind} 1 -1 rest)
+  file(READ ${PAGE}/gallery.${kind} content)
+  string(APPEND text "const char* const kPage${first}${rest} = R\"~page~(${content})~page~\";\n\n")
+endforeach()
+file(WRITE ${OUT} "${text}}  // namespace obscura::evaluate\n")

@@ -1,0 +1,77 @@
+// Reads the command line, measures, writes; turns every failure into one line and an exit code.
+#include <cstdio>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "gallery.h"
+#include "gate.h"
+
+namespace obscura::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Everything that can fail is asked before the first frame is drawn.
+void expectOutputs(const Options& options) {
+    for (const fs::path& file : {options.json, options.page, options.captureOut})
+        if (!file.empty()) app::expectWritable(file);
+    if (!options.out.empty()) app::expectFolder(options.out);
+}
+
+int evaluateShots(const Options& options) {
+    expectScenes(options);
+    expectReferenceFile(options);
+    expectOutputs(options);
+    Machine machine({options.device, options.validation, options.verbose});
+    const About about{machine.deviceName(), options.frames, options.warmUp};
+    std::vector<ShotResult> results;
+    forEachShot(machine, options, [&](Shot& shot) {
+        results.push_back(measure(machine, shot, options));
+        if (options.job == Job::gallery) fmt::print(stderr, "{} {}: done\n", shot.scene, shot.camera);
+    });
+    const std::string page = options.page.empty() ? "" : galleryPage(results, options, about);
+
+    std::fputs(textTable(results, options, about).c_str(), stdout);
+    if (!options.json.empty()) app::writeFile(options.json, rowsJson(results, options, about).dump(2) + "\n");
+    if (!options.out.empty()) writeFolder(results, options, about);
+    if (!options.captureOut.empty()) writeCaptures(results, options.captureOut);
+    if (!options.page.empty()) {
+        app::writeFile(options.page, page);
+        fmt::print("{}: {:.1f} MB\n", options.page.string(), double(page.size()) * 1e-6);
+    }
+    return machine.device().validationMessages() ? app::kInvalidUse : 0;
+}
+
+int run(int argc, char** argv) {
+    const auto options = parseOptions(argc, argv);
+    if (!options) return 0;
+    switch (options->job) {
+        case Job::checkBaseline: return checkBaseline(*options);
+        case Job::renewBaseline: return renewBaseline(*options);
+        case Job::evaluate:
+        case Job::gallery: break;
+    }
+    return evaluateShots(*options);
+}
+
+}  // namespace
+}  // namespace obscura::evaluate
+
+int main(int argc, char** argv) {
+    using namespace obscura;
+    try {
+        return evaluate::run(argc, argv);
+    } catch (const app::Complaint& complaint) {
+        std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(complaint.what()).c_str());
+        return complaint.code;
+    } catch (const scene::Error& error) {
+        std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(error.what()).c_str());
+        return app::kBadInput;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(error.what()).c_str());
+    }
+    return app::kFailed;
+}

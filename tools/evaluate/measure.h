@@ -1,0 +1,44 @@
+// The measurement itself: every candidate and falloff on a shot, against every reference.
+#pragma once
+
+#include "references.h"
+#include "truth/metrics.h"
+
+namespace obscura::evaluate {
+
+// What one candidate drew with one falloff.
+struct Drawn {
+    size_t candidate = 0;                // of Options::candidates
+    size_t falloff = 0;                  // of Options::falloffs
+    truth::Plane visibility;
+    std::vector<graph::PassTime> passes; // the method's own, medians in milliseconds
+    double milliseconds = 0.0;           // their sum
+};
+
+// One line of the tables.
+struct Row {
+    size_t drawn = 0;                    // of ShotResult::drawn
+    size_t reference = 0;                // of ShotResult::references
+    std::vector<truth::RegionMetrics> regions;  // whole first
+    const truth::Metrics& whole() const { return regions.front().metrics; }
+};
+
+struct Seconds {
+    double frame = 0.0, references = 0.0, methods = 0.0, metrics = 0.0;
+};
+
+struct ShotResult {
+    std::string scene, camera, remark;
+    float time = 0.0f;
+    truth::CapturedFrame frame;          // kept where it is written out; else without pixels
+    glm::uvec2 size{0}, guard{0};        // visible part, guard band
+    std::vector<JudgedBy> references;
+    std::vector<Drawn> drawn;
+    std::vector<Row> rows;               // by reference, falloff, candidate
+    Seconds seconds;
+    bool referencesFromCache = false;
+};
+
+ShotResult measure(Machine& machine, Shot& shot, const Options& options);
+
+}  // namespace obscura::evaluate

@@ -1,0 +1,239 @@
+#include "options.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "content.h"
+
+namespace obscura::evaluate {
+
+namespace fs = std::filesystem;
+using app::Complaint;
+
+namespace {
+
+std::optional<float> numberOf(std::string_view text) {
+    float value = 0.0f;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+glm::uvec2 sizeOf(const std::string& text) {
+    const size_t mark = text.find('x');
+    constexpr float kLeast = 16.0f, kMost = 8192.0f;
+    glm::uvec2 size(0);
+    for (int i = 0; i < 2 && mark != std::string::npos; ++i) {
+        const auto side = numberOf(i ? std::string_view(text).substr(mark + 1) : std::string_view(text).substr(0, mark));
+        if (side && *side == std::floor(*side) && *side >= kLeast && *side <= kMost) size[i] = uint32_t(*side);
+    }
+    if (size.x == 0 || size.y == 0)
+        throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels, such as 640x360", text, kLeast, kMost));
+    return size;
+}
+
+ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::string& channel) {
+    ReferenceChoice choice;
+    choice.channel = channel;
+    for (const std::string& word : words) {
+        if (word == "world") choice.world = true;
+        else if (word == "screen") choice.screen = true;
+        else if (fs::path(word).extension() != ".exr") throw Complaint(fmt::format("--reference {}: {}, or an EXR file", word, app::choices(word, {"world", "screen"})));
+        else if (!choice.file.empty()) throw Complaint(fmt::format("--reference {}: one file at a time", word));
+        else choice.file = word;
+    }
+    if (!channel.empty() && choice.file.empty()) throw Complaint(fmt::format("--channel {}: names a channel of an EXR file; give one with --reference FILE.exr", channel));
+    return choice;
+}
+
+// CLI11 says what is wrong; this adds what to do, in one line.
+[[noreturn]] void complain(const CLI::App& cli, const CLI::ParseError& error) {
+    std::string text = app::oneLine(error.what());
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        std::vector<std::string> known;
+        for (const CLI::Option* option : cli.get_options())
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        const std::vector<std::string> extras = cli.remaining();
+        const std::string word = extras.empty() ? text : extras.front();
+        const std::string near = app::nearest(word.substr(0, word.find('=')), known);
+        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
+    }
+    throw Complaint(text + " (obscura-evaluate --help lists all options)");
+}
+
+void listMethods() {
+    for (const ao::MethodInfo* info : ao::methods()) {
+        std::string presets;
+        for (const ao::Preset& preset : info->presets) presets += std::string(presets.empty() ? "" : ", ") + preset.id;
+        fmt::print("{:<18}{}; presets: {}\n", info->id, info->title, presets);
+    }
+}
+
+void listScenes() {
+    for (const SceneFile& scene : namedScenes())
+        fmt::print("{:<12}{}\n", scene.name, scene.file.empty() ? "not here; " + scene.howToGet : scene.file.string());
+}
+
+void expectTogether(const Options& options, bool hasSceneOptions) {
+    if (options.job == Job::checkBaseline || options.job == Job::renewBaseline) {
+        if (!options.capture.empty() || !options.scenes.empty()) throw Complaint("a baseline names its own scenes: leave out --scene and --capture");
+        return;
+    }
+    if (options.capture.empty() != options.captureCamera.empty())
+        throw Complaint(options.capture.empty() ? "--camera: FILE.json of a captured frame needs --capture FRAME.exr, one of a scene --scene NAME"
+                                                : fmt::format("--capture {}: needs --camera FILE.json with its field of view and guard band", options.capture.string()));
+    if (!options.capture.empty() && hasSceneOptions) throw Complaint("--capture: a captured frame has its own scene, size and time; leave out --scene, --size, --time, --guard and --skip-masked");
+    if (options.capture.empty() && options.scenes.empty()) throw Complaint("nothing to look at: give --scene NAME, or --capture FRAME.exr with --camera FRAME.json");
+    if (!options.capture.empty() && options.reference.world)
+        throw Complaint("--reference world: a captured frame has no triangles; give screen, or a rendered reference as FILE.exr");
+}
+
+}  // namespace
+
+CameraChoice cameraOf(const std::string& text) {
+    CameraChoice camera;
+    camera.text = text;
+    if (text == "own") return camera;
+    if (text.starts_with("scene:")) {
+        const auto index = numberOf(text.substr(6));
+        if (!index || *index < 0.0f || *index != std::floor(*index) || *index > 1e6f)
+            throw Complaint(fmt::format("--camera {}: write scene:N, N counting the file's cameras from 0", text));
+        camera.kind = CameraChoice::Kind::lens;
+        camera.lens = int(*index);
+    } else if (text.starts_with("path:")) {
+        const size_t mark = text.rfind('@');
+        const auto at = mark == std::string::npos ? std::nullopt : numberOf(text.substr(mark + 1));
+        if (!at) throw Complaint(fmt::format("--camera {}: write path:FILE.json@SECONDS, or path:@SECONDS for the scene's own flythrough", text));
+        camera.kind = CameraChoice::Kind::path;
+        camera.file = text.substr(5, mark - 5);
+        camera.at = *at;
+    } else if (fs::path(text).extension() == ".json") {
+        camera.kind = CameraChoice::Kind::file;
+        camera.file = text;
+    } else {
+        throw Complaint(fmt::format("--camera {}: write own, scene:N, path:FILE.json@SECONDS, or FILE.json", text));
+    }
+    return camera;
+}
+
+std::optional<Options> parseOptions(int argc, const char* const* argv) {
+    Options options;
+    CLI::App cli{"Measures ambient-obscurance methods against ray-traced references: error tables, pictures, pages, and a gate on accuracy.", "obscura-evaluate"};
+    cli.set_help_flag("-h,--help", "Print this and exit");
+    cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
+    cli.footer("Examples:\n"
+               "  obscura-evaluate --scene sponza --method hbao --preset all --reference world,screen --out out/hbao\n"
+               "  obscura-evaluate --capture frame.exr --camera frame.json --method all --json errors.json\n"
+               "  obscura-evaluate --gallery gallery.html\n"
+               "  obscura-evaluate --renew-baseline tests/accuracy/baseline.json");
+    cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    std::vector<std::string> methods{"hbao"}, presets{"default"}, falloffTexts, cameras, references, sets;
+    std::string size, channel, page, check, renew, capture;
+    float time = 0.0f;
+    bool list = false, scenesListed = false, noCache = false;
+    const auto takeAll = [](CLI::Option* option) { return option->delimiter(',')->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll); };
+
+    const char* kFrame = "What is looked at";
+    cli.add_option("--capture", capture, "EXR of a captured frame: Z, and N.X N.Y N.Z where there are normals; needs --camera FILE.json")->group(kFrame);
+    auto* scene = takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas")->group(kFrame));
+    takeAll(cli.add_option("--camera", cameras, "own (the scene's usual view), scene:N, path:FILE@SECONDS, path:@SECONDS (its own flythrough), FILE.json; several with commas")->group(kFrame));
+    auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (0; on a flythrough its own time)")->group(kFrame);
+    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (640x360; --gallery 480x270)")->group(kFrame);
+    auto* guard = cli.add_option("--guard", options.guard, "Guard band, fraction of each side")->group(kFrame)->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
+    auto* masked = cli.add_flag("--skip-masked", options.skipMasked, "Leave alpha-masked surfaces out of frame and reference, as stored references do")->group(kFrame);
+
+    const char* kJudged = "What is judged";
+    auto* methodOption = takeAll(cli.add_option("--method", methods, "Methods by id, or all")->group(kJudged)->capture_default_str());
+    auto* presetOption = takeAll(cli.add_option("--preset", presets, "Presets of them, or all")->group(kJudged)->capture_default_str());
+    cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
+        ->group(kJudged)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    takeAll(cli.add_option("--falloff", falloffTexts, "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kJudged));
+    auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported")->group(kJudged)->check(CLI::Range(1u, 100000u))->capture_default_str();
+    cli.add_option("--warm-up", options.warmUp, "Frames before those")->group(kJudged)->check(CLI::Range(0u, 1000u))->capture_default_str();
+
+    const char* kTruth = "Against what";
+    takeAll(cli.add_option("--reference", references, "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance")->group(kTruth));
+    cli.add_option("--channel", channel, "Channel of that EXR (the one named after the falloff: world.quadratic_2)")->group(kTruth);
+    cli.add_option("--rays", options.rays.rays, "Rays a pixel at most")->group(kTruth)->check(CLI::Range(32u, 1048576u))->capture_default_str();
+    cli.add_option("--target-error", options.rays.targetError, "Standard error at which a pixel stops; 0 casts all rays")->group(kTruth)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
+    cli.add_option("--seed", options.rays.seed, "Of the rays")->group(kTruth)->capture_default_str();
+    cli.add_flag("--no-cache", noCache, "Render references anew, keep none (they lie in the user's cache folder)")->group(kTruth);
+
+    const char* kOut = "What comes out";
+    cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference")->group(kOut);
+    cli.add_option("--out", options.out, "Folder for visibility (EXR, PNG), error pictures, references, metrics.json and metrics.md")->group(kOut);
+    cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json, for others")->group(kOut);
+    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (gallery.html)")->group(kOut)->expected(0, 1)->default_str("gallery.html");
+    auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's error is worse than this file says")->group(kOut);
+    auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's cells when methods are named)")->group(kOut);
+    gallery->excludes(checkOption)->excludes(renewOption);
+    checkOption->excludes(renewOption);
+
+    const char* kDevice = "Device";
+    cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use")->group(kDevice);
+    cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync")->group(kDevice)->check(CLI::IsMember({"off", "core", "sync"}))->capture_default_str();
+    cli.add_flag("--verbose", options.verbose, "Print what the device and the loader have to say")->group(kDevice);
+    cli.add_flag("--list-methods", list, "Print the methods and their presets")->group(kDevice);
+    cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and where they are found")->group(kDevice);
+
+    try {
+        cli.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::fputs(cli.help().c_str(), stdout);
+        return std::nullopt;
+    } catch (const CLI::CallForVersion& version) {
+        std::puts(version.what());
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        complain(cli, error);
+    }
+    if (list || scenesListed) {
+        list ? listMethods() : listScenes();
+        return std::nullopt;
+    }
+
+    if (*gallery) {
+        options.job = Job::gallery;
+        options.page = page.empty() ? "gallery.html" : page;
+        if (!*methodOption) methods = {"all"};
+        if (falloffTexts.empty()) falloffTexts = {"quadratic:2", "exponential:1"};
+        if (references.empty()) references = {"world", "screen"};
+        if (!*frames) options.frames = 7;
+        if (!*sizeOption) options.size = {480, 270};
+        if (!*scene && capture.empty())
+            for (const SceneFile& known : namedScenes())
+                if (!known.file.empty()) options.scenes.push_back(known.name);
+    } else if (*checkOption || *renewOption) {
+        options.job = *checkOption ? Job::checkBaseline : Job::renewBaseline;
+        options.baseline = *checkOption ? check : renew;
+        if (!*methodOption) methods = {"all"};
+        if (!*presetOption) presets = {"all"};
+    }
+    options.capture = capture;
+    if (!capture.empty()) {
+        if (cameras.size() > 1) throw Complaint("--camera: a captured frame has one camera, FILE.json");
+        if (!cameras.empty()) options.captureCamera = cameras.front();
+    } else {
+        for (const std::string& camera : cameras) options.cameras.push_back(cameraOf(camera));
+        if ((options.usualCameras = options.cameras.empty())) options.cameras.push_back(cameraOf("own"));
+        if (options.usualCameras && options.job == Job::gallery) options.cameras.push_back(cameraOf("path:@4"));
+    }
+    if (!sets.empty() && options.job == Job::renewBaseline) throw Complaint("--set: a baseline holds presets as they are");
+    if (references.empty()) references = {capture.empty() ? "world" : "screen"};
+    options.candidates = candidates(methods, presets, sets);
+    options.falloffs = falloffs(falloffTexts.empty() ? std::vector<std::string>{"quadratic:2"} : falloffTexts);
+    options.reference = referenceOf(references, channel);
+    if (*timeOption && !std::isfinite(time)) throw Complaint("--time: must be a finite number of seconds");
+    if (*timeOption) options.time = time;
+    if (!size.empty()) options.size = sizeOf(size);
+    options.rays.cache = !noCache;
+    expectTogether(options, *scene || *timeOption || *sizeOption || *guard || *masked);
+    return options;
+}
+
+}  // namespace obscura::evaluate

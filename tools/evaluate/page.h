@@ -1,0 +1,10 @@
+// The gallery's page/ files, embedded by the build (page.cpp is generated).
+#pragma once
+
+namespace obscura::evaluate {
+
+extern const char* const kPageHtml;  // with the marks /*STYLE*/, /*SCRIPT*/ and /*DATA*/
+extern const char* const kPageCss;
+extern const char* const kPageJs;
+
+}  // namespace obscura::evaluate

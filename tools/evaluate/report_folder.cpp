@@ -1,0 +1,78 @@
+#include <cctype>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "app/files.h"
+#include "false_colour.h"
+#include "report.h"
+
+namespace obscura::evaluate {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+truth::Picture one(const char* channel, const truth::Plane& plane) {
+    truth::Picture picture;
+    picture.add(channel, plane);
+    return picture;
+}
+
+std::string safe(std::string text) {
+    for (char& c : text)
+        if (!std::isalnum((unsigned char)c) && c != '.' && c != '-') c = '-';
+    return text;
+}
+
+// The references of a shot as one file in the form of stored ones: channels of obscurance, so that --reference reads it.
+void writeReferences(const fs::path& stem, const ShotResult& shot) {
+    truth::Picture picture;
+    for (const JudgedBy& reference : shot.references) {
+        if (picture.find(reference.fileName)) continue;  // a stored channel may serve several falloffs
+        truth::Plane obscurance = reference.visibility;
+        for (float& value : obscurance.values) value = 1.0f - value;
+        picture.add(reference.fileName, std::move(obscurance));
+        app::writePng(stem.string() + ".reference." + safe(reference.fileName) + ".png", greyPicture(reference.visibility));
+    }
+    truth::writeExr(stem.string() + ".reference.exr", picture);
+}
+
+}  // namespace
+
+std::string shotFileName(const ShotResult& shot) {
+    // A camera file is known by its name, wherever it lies.
+    std::string camera = shot.camera.substr(shot.camera.find_last_of('/') + 1);
+    if (camera.ends_with(".json")) camera.resize(camera.size() - 5);
+    return safe(shot.scene + "." + camera);
+}
+
+void writeFolder(const std::vector<ShotResult>& shots, const Options& options, const About& about) {
+    for (const ShotResult& shot : shots) {
+        const fs::path stem = options.out / shotFileName(shot);
+        for (const Drawn& drawn : shot.drawn) {
+            const std::string name = fmt::format("{}.{}.{}", stem.string(), options.candidates[drawn.candidate].fileName(), options.falloffs[drawn.falloff].fileName());
+            truth::writeExr(name + ".visibility.exr", one("Y", drawn.visibility));
+            app::writePng(name + ".visibility.png", greyPicture(drawn.visibility));
+        }
+        for (const Row& row : shot.rows) {
+            const Drawn& drawn = shot.drawn[row.drawn];
+            const JudgedBy& reference = shot.references[row.reference];
+            app::writePng(fmt::format("{}.{}.{}.error.{}.png", stem.string(), options.candidates[drawn.candidate].fileName(), options.falloffs[drawn.falloff].fileName(),
+                                      safe(reference.fileName.substr(0, reference.fileName.find('.')))),
+                          errorPicture(drawn.visibility, reference.visibility));
+        }
+        writeReferences(stem, shot);
+    }
+    app::writeFile(options.out / "metrics.json", rowsJson(shots, options, about).dump(2) + "\n");
+    app::writeFile(options.out / "metrics.md", markdown(shots, options, about));
+}
+
+void writeCaptures(const std::vector<ShotResult>& shots, const fs::path& path) {
+    std::string stem = path.string();
+    for (const std::string_view end : {".capture.exr", ".exr", ".json"})
+        if (stem.size() > end.size() && stem.ends_with(end)) stem.resize(stem.size() - end.size());
+    for (const ShotResult& shot : shots) truth::writeCapture(shots.size() == 1 ? stem : stem + "." + shotFileName(shot), shot.frame);
+}
+
+}  // namespace obscura::evaluate

@@ -1,0 +1,73 @@
+#include "report.h"
+
+#include <cmath>
+
+namespace obscura::evaluate {
+
+namespace {
+
+// Six significant digits: what float errors hold.
+double digits(double value) {
+    if (value == 0.0 || !std::isfinite(value)) return 0.0;
+    const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::fabs(value))));
+    return std::round(value * scale) / scale;
+}
+
+void putErrors(Json& json, const truth::Errors& errors) {
+    json["eA"] = digits(errors.eA);
+    json["e5"] = digits(errors.e5);
+    json["bias"] = digits(errors.bias);
+    json["rmse"] = digits(errors.rmse);
+    json["p99"] = digits(errors.p99);
+}
+
+void putMetrics(Json& json, const truth::Metrics& metrics) {
+    putErrors(json, metrics.raw);
+    json["ssim"] = digits(metrics.ssim);
+    json["flip"] = digits(metrics.flipMean);
+    json["flipWeightedMedian"] = digits(metrics.flipWeightedMedian);
+    json["gamma"] = digits(metrics.gamma);
+    putErrors(json["adjusted"], metrics.adjusted);
+    json["pixels"] = metrics.pixels;
+}
+
+}  // namespace
+
+Json rowJson(const ShotResult& shot, const Row& row, const Options& options, const About& about) {
+    const Drawn& drawn = shot.drawn[row.drawn];
+    const JudgedBy& reference = shot.references[row.reference];
+    const Candidate& candidate = options.candidates[drawn.candidate];
+    Json json;
+    json["method"] = candidate.info().id;
+    json["preset"] = candidate.preset;
+    if (!candidate.settings.empty()) json["set"] = candidate.settings;
+    json["falloff"] = reference.falloff;
+    json["reference"] = reference.kind;
+    json["scene"] = shot.scene;
+    json["camera"] = shot.camera;
+    json["time"] = digits(shot.time);
+    json["size"] = {shot.size.x, shot.size.y};
+    json["guard"] = {shot.guard.x, shot.guard.y};
+    putMetrics(json, row.whole());
+    for (size_t i = 1; i < row.regions.size(); ++i)
+        putMetrics(json["regions"][truth::kRegionNames[size_t(row.regions[i].region)]], row.regions[i].metrics);
+    json["milliseconds"]["all"] = digits(drawn.milliseconds);
+    json["milliseconds"]["passes"] = Json::object();
+    for (const graph::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = digits(pass.milliseconds);
+    if (reference.rays > 0.0f) {
+        json["referenceRays"] = digits(reference.rays);
+        json["referenceError"] = digits(reference.error);
+    }
+    json["device"] = about.device;
+    json["frames"] = about.frames;
+    return json;
+}
+
+Json rowsJson(const std::vector<ShotResult>& shots, const Options& options, const About& about) {
+    Json rows = Json::array();
+    for (const ShotResult& shot : shots)
+        for (const Row& row : shot.rows) rows.push_back(rowJson(shot, row, options, about));
+    return rows;
+}
+
+}  // namespace obscura::evaluate

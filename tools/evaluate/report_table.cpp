@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include "report.h"
+
+namespace obscura::evaluate {
+
+namespace {
+
+std::string shotTitle(const ShotResult& shot) {
+    return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px", shot.scene, shot.camera, shot.time, shot.size.x, shot.size.y, shot.guard.x, shot.guard.y);
+}
+
+std::string secondsLine(const ShotResult& shot) {
+    return fmt::format("frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s", shot.seconds.frame, shot.seconds.references,
+                       shot.referencesFromCache ? " (cached)" : "", shot.seconds.methods, shot.seconds.metrics);
+}
+
+// How sure the references themselves are.
+std::string referenceLines(const ShotResult& shot, const char* bullet) {
+    std::string text;
+    for (const JudgedBy& reference : shot.references)
+        if (reference.rays > 0.0f)
+            text += fmt::format("{}{} {}: {:.0f} rays a pixel, standard error {:.4f} (means)\n", bullet, reference.kind, reference.falloff, reference.rays, reference.error);
+    return text;
+}
+
+}  // namespace
+
+std::string markdown(const std::vector<ShotResult>& shots, const Options& options, const About& about) {
+    std::string text = fmt::format(
+        "# Error of ambient-obscurance methods\n\n"
+        "Errors are of visibility (1 open, 0 blocked), method minus reference, over pixels that are not sky: a positive bias is too bright. eA is the\n"
+        "mean absolute error, e<5% the share of pixels within 0.05, p99 the 99th percentile. g* is the exponent that fits best and eA g* what it leaves.\n"
+        "Times are medians of {} frames on {}, the method's own passes; compare them only inside one table.\n",
+        about.frames, about.device);
+    for (const ShotResult& shot : shots) {
+        text += fmt::format("\n## {}\n\n", shotTitle(shot));
+        if (!shot.remark.empty()) text += shot.remark + ".\n\n";
+        text += "| method | preset | falloff | reference | eA | e<5% | bias | rmse | p99 | ssim | flip | g* | eA g* | ms |\n"
+                "|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+        for (const Row& row : shot.rows) {
+            const Drawn& drawn = shot.drawn[row.drawn];
+            const Candidate& candidate = options.candidates[drawn.candidate];
+            const truth::Metrics& m = row.whole();
+            text += fmt::format("| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} | {:.4f} | {:.2f} | {:.4f} | {:.2f} |\n", candidate.info().id,
+                                candidate.preset, candidate.settings.empty() ? "" : " ", fmt::join(candidate.settings, " "), shot.references[row.reference].falloff,
+                                shot.references[row.reference].kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim, m.flipMean, m.gamma, m.adjusted.eA, drawn.milliseconds);
+        }
+        text += "\n| method | preset | falloff | reference | region | pixels | eA | e<5% | bias | rmse | p99 | ssim |\n|---|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
+        for (const Row& row : shot.rows)
+            for (size_t i = 1; i < row.regions.size(); ++i) {
+                const truth::Metrics& m = row.regions[i].metrics;
+                const Candidate& candidate = options.candidates[shot.drawn[row.drawn].candidate];
+                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} |\n", candidate.info().id, candidate.preset,
+                                    shot.references[row.reference].falloff, shot.references[row.reference].kind, truth::kRegionNames[size_t(row.regions[i].region)], m.pixels,
+                                    m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim);
+            }
+        text += "\n| method | preset | falloff | pass | ms |\n|---|---|---|---|--:|\n";
+        for (const Drawn& drawn : shot.drawn) {
+            const Candidate& candidate = options.candidates[drawn.candidate];
+            const std::string lead = fmt::format("| {} | {} | {} | ", candidate.info().id, candidate.preset, options.falloffs[drawn.falloff].text);
+            for (const graph::PassTime& pass : drawn.passes) text += fmt::format("{}{} | {:.3f} |\n", lead, pass.name, pass.milliseconds);
+            text += fmt::format("{}**all** | {:.3f} |\n", lead, drawn.milliseconds);
+        }
+        text += fmt::format("\n{}- time of each part: {}\n", referenceLines(shot, "- "), secondsLine(shot));
+    }
+    return text;
+}
+
+std::string textTable(const std::vector<ShotResult>& shots, const Options& options, const About& about) {
+    std::string text;
+    for (const ShotResult& shot : shots) {
+        text += shotTitle(shot) + "\n";
+        if (!shot.remark.empty()) text += "  " + shot.remark + "\n";
+        size_t name = 8, kind = 9, falloff = 7;
+        for (const Row& row : shot.rows) {
+            name = std::max(name, options.candidates[shot.drawn[row.drawn].candidate].label().size());
+            kind = std::max(kind, shot.references[row.reference].kind.size());
+            falloff = std::max(falloff, shot.references[row.reference].falloff.size());
+        }
+        text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>7} {:>6} {:>8} {:>7} {:>6} {:>7} {:>7} {:>8}\n", "method", name, "falloff", falloff, "reference", kind, "eA", "e<5%", "bias",
+                            "rmse", "p99", "ssim", "flip", "ms");
+        for (const Row& row : shot.rows) {
+            const Drawn& drawn = shot.drawn[row.drawn];
+            const JudgedBy& reference = shot.references[row.reference];
+            const truth::Metrics& m = row.whole();
+            text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:7.4f} {:7.4f} {:8.2f}\n", options.candidates[drawn.candidate].label(), name,
+                                reference.falloff, falloff, reference.kind, kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim, m.flipMean, drawn.milliseconds);
+        }
+        text += referenceLines(shot, "  ") + "  " + secondsLine(shot) + "\n\n";
+    }
+    return text + fmt::format("{}; times are medians of {} frames, the method's own passes\n", about.device, about.frames);
+}
+
+}  // namespace obscura::evaluate

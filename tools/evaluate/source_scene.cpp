@@ -1,0 +1,160 @@
+// Shots of scenes: the sample's own renderer draws depth and normals, and runs the methods just as the game does.
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
+
+#include "app/complaint.h"
+#include "content.h"
+#include "shot.h"
+
+namespace obscura::evaluate {
+
+namespace fs = std::filesystem;
+using app::Complaint;
+
+namespace {
+
+glm::vec3 unpackNormal(uint32_t bits) {
+    const glm::vec2 e = glm::unpackSnorm2x16(bits);
+    glm::vec3 n(e.x, e.y, 1.0f - std::abs(e.x) - std::abs(e.y));
+    const float t = std::max(-n.z, 0.0f);
+    n.x -= n.x >= 0.0f ? t : -t;
+    n.y -= n.y >= 0.0f ? t : -t;
+    return glm::normalize(n);
+}
+
+// The file a path camera names: as given, or below a content folder; empty: the scene's own.
+std::optional<fs::path> pathFile(const CameraChoice& choice, const SceneFile& file) {
+    if (choice.file.empty()) return file.flythrough;
+    std::error_code ignored;
+    if (fs::is_regular_file(choice.file, ignored)) return choice.file;
+    return findContent(choice.file.string());
+}
+
+// Nothing where a usual camera is not to be had.
+std::optional<scene::Camera> cameraFor(const CameraChoice& choice, const SceneFile& file, const scene::World* world, float time, bool usual) {
+    switch (choice.kind) {
+        case CameraChoice::Kind::path: {
+            const auto path = pathFile(choice, file);
+            if (path) return scene::loadCameraPath(*path).at(choice.at);
+            if (usual) return std::nullopt;
+            throw Complaint(choice.file.empty() ? fmt::format("--camera {}: {} has no flythrough of its own; name one: path:FILE.json@SECONDS", choice.text, file.name)
+                                                : fmt::format("--camera {}: no such file", choice.text));
+        }
+        case CameraChoice::Kind::file: {
+            std::error_code ignored;
+            if (!fs::is_regular_file(choice.file, ignored)) throw Complaint(fmt::format("--camera {}: no such file", choice.text));
+            return scene::loadCamera(choice.file);
+        }
+        case CameraChoice::Kind::lens: {
+            if (!world) return scene::Camera();
+            const scene::Instance& first = world->instances().front();
+            const int count = scene::lensCount(*first.model);
+            if (choice.lens >= count)
+                throw Complaint(fmt::format("--camera {}: {} has {} cameras; {}", choice.text, file.name, count,
+                                            count ? fmt::format("write scene:0 to scene:{}", count - 1) : "write own, path:FILE.json@SECONDS, or FILE.json"));
+            return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, time + first.timeOffset), choice.lens);
+        }
+        case CameraChoice::Kind::own: break;
+    }
+    if (file.camera) return file.camera;
+    if (!world) return scene::Camera();
+    const scene::Instance& first = world->instances().front();
+    if (scene::lensCount(*first.model) > 0) return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, time + first.timeOffset), 0);
+    return scene::frame(scene::bounds(*world, time));
+}
+
+float timeOf(const Options& options, const CameraChoice& camera) {
+    return options.time ? *options.time : camera.kind == CameraChoice::Kind::path ? camera.at : 0.0f;
+}
+
+render::FrameOptions frameOptions(const Options& options, const scene::Camera& camera, float time) {
+    render::FrameOptions frame;
+    frame.visible = {options.size.x, options.size.y};
+    frame.guard = options.guard;
+    frame.camera = camera;
+    frame.time = time;
+    frame.view = render::View::visibility;  // nothing needs light
+    frame.skipMasked = options.skipMasked;
+    return frame;
+}
+
+truth::CapturedFrame frameOf(const Options& options, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
+                             const std::vector<std::byte>& normals) {
+    truth::CapturedFrame frame = truth::emptyFrame(options.size, (size - options.size) / 2u, camera.fovY, camera.nearPlane, camera);
+    std::memcpy(frame.depth.data(), depth.data(), depth.size());
+    std::vector<uint32_t> packed(frame.depth.size());
+    std::memcpy(packed.data(), normals.data(), normals.size());
+    for (size_t i = 0; i < packed.size(); ++i) {
+        frame.depth[i] = std::min(frame.depth[i], frame.skyDepth);
+        frame.normals[i] = frame.isSky(i) ? glm::vec3(0.0f) : unpackNormal(packed[i]);
+    }
+    return frame;
+}
+
+// Draws the frame once, without obscurance, and reads it back.
+void capture(Machine& machine, const Options& options, const scene::World& world, const render::FrameOptions& wanted, Shot& shot) {
+    const ao::Values none(*ao::methods()[0]);
+    glm::uvec2 size(0);
+    const Machine::Ran ran = machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
+        render::FrameOptions frame = wanted;
+        frame.method = &none;
+        frame.cut = true;
+        const render::Outputs outputs = machine.renderer().add(graph, world, frame);
+        size = {graph.desc(outputs.linearDepth).width, graph.desc(outputs.linearDepth).height};
+        return std::vector{outputs.linearDepth, outputs.normals};
+    });
+    shot.frame = frameOf(options, wanted.camera, size, ran.images[0], ran.images[1]);
+    shot.frame.check(shot.scene + " " + shot.camera);
+    for (const graph::PassTime& pass : ran.passes)
+        if (!pass.name.starts_with("prepare.")) shot.framePasses.push_back(pass.name);
+}
+
+}  // namespace
+
+void expectScenes(const Options& options) {
+    for (const std::string& scene : options.scenes) {
+        const SceneFile file = findScene(scene);
+        for (const CameraChoice& camera : options.cameras) cameraFor(camera, file, nullptr, 0.0f, options.usualCameras);
+    }
+}
+
+size_t shotCount(const Options& options) { return options.capture.empty() ? options.scenes.size() * options.cameras.size() : 1; }
+
+void sceneShots(Machine& machine, const Options& options, const TakeShot& take) {
+    for (const std::string& name : options.scenes) {
+        double begun = app::now();
+        const SceneFile file = findScene(name);
+        auto world = std::make_shared<scene::World>();
+        world->add({.model = scene::loadGltf(file.file)});
+        if (world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", name));
+        if (machine.renderer().load(*world) != gpu::Status::ok) throw Complaint(fmt::format("{}: cannot be uploaded to {}", file.file.string(), machine.deviceName()), app::kFailed);
+        for (const CameraChoice& choice : options.cameras) {
+            Shot shot;
+            shot.scene = file.name;
+            shot.camera = choice.text;
+            shot.time = timeOf(options, choice);
+            const auto camera = cameraFor(choice, file, world.get(), shot.time, options.usualCameras);
+            if (!camera) continue;
+            const render::FrameOptions wanted = frameOptions(options, *camera, shot.time);
+            capture(machine, options, *world, wanted, shot);
+            shot.world = world;
+            shot.skipMasked = options.skipMasked;
+            shot.library = &machine.renderer().library();
+            shot.add = [&renderer = machine.renderer(), world, wanted](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {
+                render::FrameOptions frame = wanted;
+                frame.method = &candidate.values;
+                frame.falloff = falloff;
+                frame.cut = index == 0;
+                return renderer.add(graph, *world, frame).visibility;
+            };
+            shot.seconds = (app::now() - begun) * 1e-3;
+            take(shot);
+            begun = app::now();
+        }
+    }
+}
+
+}  // namespace obscura::evaluate
