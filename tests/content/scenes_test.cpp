@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <numeric>
 #include <ostream>
 #include <set>
 
@@ -74,7 +75,8 @@ TEST_P(Scenes, EveryChannelEndsWhereItBegan)
         EXPECT_TRUE(std::is_sorted(channel.times.begin(), channel.times.end())) << name;
         std::vector<float> first = keyValue(scene(), channel, 0);
         const std::vector<float> last = keyValue(scene(), channel, channel.times.size() - 1);
-        if (channel.path == Path::Rotation && first[0] * last[0] + first[1] * last[1] + first[2] * last[2] + first[3] * last[3] < 0)
+        // A quaternion and its negative are one rotation.
+        if (channel.path == Path::Rotation && std::inner_product(first.begin(), first.end(), last.begin(), 0.0f) < 0.0f)
             for (float& v : first)
                 v = -v;
         for (std::size_t i = 0; i < first.size(); ++i)
@@ -142,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(Generated,
                          Scenes,
                          testing::Values(File{"toasters", toasters, obscura::toasters::buildScene, 17000, 24000},
                                          File{"atrium", atrium, obscura::atrium::buildScene, 150000, 300000}),
-                         [](const testing::TestParamInfo<File>& info) { return info.param.name; });
+                         [](const testing::TestParamInfo<File>& file) { return file.param.name; });
 
 TEST(Atrium, HasAMaskedAndADoubleSidedMaterial)
 {

@@ -93,7 +93,8 @@ TEST(Toasters, FeetTouchTheGroundAndNeverSink)
     for (float time = 0.0f; time < 10.0f; time += 0.5f * kFrame) {
         const Pose pose = poseAt(toasters(), time);
         for (int toy = 0; toy < kToys; ++toy) {
-            const float gap = lowest(posedPositions(toasters(), pose, toyNode("toaster", toy))) - obscura::toasters::kTrayFloor;
+            const std::vector<glm::vec3> legs = posedPositions(toasters(), pose, toyNode("toaster", toy));
+            const float gap = lowest(legs) - obscura::toasters::kTrayFloor;
             EXPECT_GT(gap, -0.005f) << "toy " << toy << " at " << time;
             const auto& hops = scripts[static_cast<std::size_t>(toy)].hops;
             const bool isHopping = std::any_of(hops.begin(), hops.end(), [&](const auto& hop) {
@@ -153,7 +154,9 @@ TEST(Toasters, ToastFliesAndComesBack)
         for (float time = 0.0f; time < 10.0f; time += kFrame) {
             const Pose pose = poseAt(toasters(), time);
             const int toast = toyNode("toast", toy);
-            highest = std::max(highest, glm::distance(glm::vec3(pose.world[toast][3]), glm::vec3(pose.world[toyNode("head", toy)][3])));
+            const glm::vec3 place(pose.world[toast][3]);
+            const glm::vec3 hinge(pose.world[toyNode("head", toy)][3]);
+            highest = std::max(highest, glm::distance(place, hinge));
             bend = std::max(bend, std::abs(pose.weights[toast].front()));
         }
         EXPECT_GT(highest, 0.4f) << "toy " << toy;

@@ -86,7 +86,12 @@ Geometry makeArch(bool isBlind)
     // A round shield in each spandrel; a blind arch's back lies in the wall and needs none.
     for (float side : {-1.0f, 1.0f})
         for (float face : isBlind ? std::vector{1.0f} : std::vector{-1.0f, 1.0f})
-            mesh.append(lathe({{0.0f, -0.02f}, {0.13f, -0.02f}, {0.135f, 0.012f}, {0.105f, 0.024f}, {0.085f, 0.008f}, {0.0f, 0.03f}},
+            mesh.append(lathe({{0.0f, -0.02f},
+                               {0.13f, -0.02f},
+                               {0.135f, 0.012f},
+                               {0.105f, 0.024f},
+                               {0.085f, 0.008f},
+                               {0.0f, 0.03f}},
                               12),
                         translation({side * 1.03f, 1.13f, face * (0.5f * kArchDepth - 0.035f)}) *
                             rotation(90.0f * face, {1, 0, 0}));

@@ -51,13 +51,15 @@ Geometry makeBanner(float width, float height)
         const float depth = 0.022f + 0.045f * uv.y;
         const float pleats = std::sin(kTau * 4.0f * uv.x) + 0.35f * std::sin(kTau * 7.0f * uv.x + 1.0f + 2.0f * uv.y);
         const float point = 0.35f * (1.0f - std::abs(2.0f * uv.x - 1.0f));
-        return glm::vec3(x * (1.0f - 0.05f * std::sin(kTau * 0.5f * uv.y)), -uv.y * (height - 0.35f + point), depth * pleats);
+        const float waist = 1.0f - 0.05f * std::sin(kTau * 0.5f * uv.y);
+        return glm::vec3(x * waist, -uv.y * (height - 0.35f + point), depth * pleats);
     });
     return withWaves(std::move(mesh), [=](glm::vec3 p, float phase) {
         const float down = -p.y / height;
         const float swing = 0.16f * down * down * std::cos(5.0f * down - phase);
         const float flutter = 0.05f * down * std::cos(7.5f * p.x / width + 6.0f * down - phase);
-        return glm::vec3(0.012f * down * std::sin(phase + 3.0f * down), 0.02f * down * down * std::sin(phase), swing + flutter);
+        const float drift = 0.012f * down * std::sin(phase + 3.0f * down);
+        return glm::vec3(drift, 0.02f * down * down * std::sin(phase), swing + flutter);
     });
 }
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 int main(int argc, char** argv)
 {
@@ -17,6 +18,9 @@ int main(int argc, char** argv)
     app.footer("Example:\n  obscura-atrium --out content/atrium.glb");
     std::string out = "content/atrium.glb";
     app.add_option("-o,--out", out, "File to write; its folder is made if missing")->capture_default_str();
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return "obscura-atrium: " + std::string(error.what()) + "; --help tells more\n";
+    });
     CLI11_PARSE(app, argc, argv);
     try {
         const obscura::kit::Scene scene = obscura::atrium::buildScene();

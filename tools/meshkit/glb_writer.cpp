@@ -122,9 +122,9 @@ int Writer::addAccessor(std::span<const std::uint8_t> bytes,
                         Target target)
 {
     m_json["accessors"].push_back(Json::object({{"bufferView", addView(bytes, target)},
-                                   {"componentType", static_cast<int>(type)},
-                                   {"count", count},
-                                   {"type", typeName(width)}}));
+                                                {"componentType", static_cast<int>(type)},
+                                                {"count", count},
+                                                {"type", typeName(width)}}));
     return static_cast<int>(m_json["accessors"].size() - 1);
 }
 
@@ -229,8 +229,8 @@ void Writer::writeImages()
     for (std::size_t i = 0; i < m_scene.images.size(); ++i) {
         const std::vector<std::uint8_t> png = encodePng(m_scene.images[i].image);
         m_json["images"].push_back(Json::object({{"name", m_scene.images[i].name},
-                                    {"mimeType", "image/png"},
-                                    {"bufferView", addView(png, kNoTarget)}}));
+                                                 {"mimeType", "image/png"},
+                                                 {"bufferView", addView(png, kNoTarget)}}));
         m_json["textures"].push_back(Json::object({{"sampler", 0}, {"source", i}}));
     }
     constexpr int kLinear = 9729;
@@ -238,9 +238,9 @@ void Writer::writeImages()
     constexpr int kRepeat = 10497;
     if (!m_scene.images.empty())
         m_json["samplers"].push_back(Json::object({{"magFilter", kLinear},
-                                      {"minFilter", kLinearMipmapLinear},
-                                      {"wrapS", kRepeat},
-                                      {"wrapT", kRepeat}}));
+                                                   {"minFilter", kLinearMipmapLinear},
+                                                   {"wrapS", kRepeat},
+                                                   {"wrapT", kRepeat}}));
 }
 
 void Writer::writeMaterials()
@@ -322,8 +322,9 @@ void Writer::writeNodes()
     }
     for (const Camera& camera : m_scene.cameras)
         m_json["cameras"].push_back(Json::object({{"name", camera.name},
-                                     {"type", "perspective"},
-                                     {"perspective", {{"yfov", camera.verticalFov}, {"znear", camera.nearPlane}}}}));
+                                                  {"type", "perspective"},
+                                                  {"perspective",
+                                                   {{"yfov", camera.verticalFov}, {"znear", camera.nearPlane}}}}));
     m_json["scenes"].push_back(Json::object({{"name", m_scene.name}, {"nodes", std::move(roots)}}));
     m_json["scene"] = 0;
 }
@@ -333,9 +334,9 @@ void Writer::writeSkins()
     for (const Skin& skin : m_scene.skins) {
         const std::span<const float> matrices{&skin.inverseBind.front()[0][0], skin.inverseBind.size() * 16};
         m_json["skins"].push_back(Json::object({{"name", skin.name},
-                                   {"skeleton", skin.skeletonRoot},
-                                   {"joints", skin.joints},
-                                   {"inverseBindMatrices", addFloats(matrices, 16, kNoTarget, false)}}));
+                                                {"skeleton", skin.skeletonRoot},
+                                                {"joints", skin.joints},
+                                                {"inverseBindMatrices", addFloats(matrices, 16, kNoTarget, false)}}));
     }
 }
 
@@ -349,10 +350,11 @@ void Writer::writeAnimation()
         // Morph weights are one long run of scalars.
         const std::size_t width = channel.path == Path::Weights ? 1 : m_scene.channelWidth(channel);
         animation["channels"].push_back(Json::object({{"sampler", animation["samplers"].size()},
-                                         {"target", {{"node", channel.node}, {"path", pathName(channel.path)}}}}));
+                                                      {"target",
+                                                        {{"node", channel.node}, {"path", pathName(channel.path)}}}}));
         animation["samplers"].push_back(Json::object({{"input", input->second},
-                                         {"interpolation", interpolationName(channel.interpolation)},
-                                         {"output", addFloats(channel.values, width, kNoTarget, false)}}));
+                                                      {"interpolation", interpolationName(channel.interpolation)},
+                                                      {"output", addFloats(channel.values, width, kNoTarget, false)}}));
     }
     m_json["animations"].push_back(std::move(animation));
 }

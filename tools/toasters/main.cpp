@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 int main(int argc, char** argv)
 {
@@ -18,6 +19,9 @@ int main(int argc, char** argv)
     app.footer("Example:\n  obscura-toasters --out content/toasters.glb");
     std::string out = "content/toasters.glb";
     app.add_option("-o,--out", out, "File to write; its folder is made if missing")->capture_default_str();
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return "obscura-toasters: " + std::string(error.what()) + "; --help tells more\n";
+    });
     CLI11_PARSE(app, argc, argv);
     try {
         const obscura::kit::Scene scene = obscura::toasters::buildScene();

@@ -217,7 +217,7 @@ Scene Builder::build()
     const std::vector<Script> scripts = makeScripts();
     for (std::size_t i = 0; i < scripts.size(); ++i)
         addToy(static_cast<int>(i), scripts[i]);
-    m_scene.addCamera({"main", 0.75f, 0.05f}, {1.9f, 2.1f, 4.3f}, {0.0f, 0.15f, 0.1f});
+    m_scene.addCamera({"main", 0.75f, 0.05f}, {1.3f, 1.75f, 3.7f}, {0.05f, 0.2f, 0.15f});
     return std::move(m_scene);
 }
 
