@@ -24,12 +24,15 @@ std::vector<fs::path> contentFolders() {
     return folders;
 }
 
-std::optional<fs::path> findContent(const std::string& relative) {
+std::optional<fs::path> findContent(const std::vector<std::string>& relatives) {
     std::error_code ignored;
     for (const fs::path& folder : contentFolders())
-        if (fs::is_regular_file(folder / relative, ignored)) return folder / relative;
+        for (const std::string& relative : relatives)
+            if (fs::is_regular_file(folder / relative, ignored)) return folder / relative;
     return std::nullopt;
 }
+
+std::optional<fs::path> findContent(const std::string& relative) { return findContent(std::vector{relative}); }
 
 namespace {
 

@@ -14,6 +14,8 @@ namespace obscura::game {
 // $OBSCURA_CONTENT, and shared/content beside the source tree.
 std::vector<std::filesystem::path> contentFolders();
 std::optional<std::filesystem::path> findContent(const std::string& relative);
+// Any of these: the first folder that has one wins.
+std::optional<std::filesystem::path> findContent(const std::vector<std::string>& relatives);
 
 // Toys of toasters.glb set down in a scene, without their tray.
 struct ToyGroup {

@@ -1,5 +1,7 @@
 #include "engine.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -15,6 +17,14 @@ namespace fs = std::filesystem;
 using app::Complaint;
 
 namespace {
+
+// Software rasterizers compile variants for sides that are powers of two and for sides that are not; the tiny pictures of
+// the warm-up must be of the same kind as those to come.
+uint32_t tinySide(uint32_t side) {
+    uint32_t tiny = std::max(side / 8, 24u);
+    while (std::has_single_bit(tiny) != std::has_single_bit(side)) ++tiny;
+    return tiny;
+}
 
 fs::path pipelineCacheFile(const Options& options) {
     if (options.noPipelineCache) return {};
@@ -84,7 +94,7 @@ void Engine::expect(gpu::Status status, const char* doing) const {
 void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& values, render::View view) {
     expect(m_frames->begin(*m_graph), "warming up");
     render::FrameOptions frame;
-    frame.visible = {64, 36};
+    frame.visible = {tinySide(options.size.width), tinySide(options.size.height)};
     frame.guard = options.guard;
     frame.camera = stage.startCamera();
     frame.method = &values;

@@ -67,7 +67,7 @@ void parameterPanel(ao::Values& values) {
         } else {
             // Ranges over several powers of ten need a slider that gives each of them room.
             const bool wide = parameter.minimum > 0.0f && parameter.maximum / parameter.minimum > 50.0f;
-            if (ImGui::SliderFloat(label.c_str(), &value, parameter.minimum, parameter.maximum, "%.3g", wide ? ImGuiSliderFlags_Logarithmic : 0))
+            if (ImGui::SliderFloat(label.c_str(), &value, parameter.minimum, parameter.maximum, "%.4g", wide ? ImGuiSliderFlags_Logarithmic : 0))
                 values.set(parameter.id, value);
         }
         tip(parameter.sentence);
@@ -132,6 +132,7 @@ void timePanel(Session& session) {
 }
 
 void factsPanel(Session& session) {
+    ImGui::PushTextWrapPos(0.0f);
     const render::SceneFacts facts = session.engine.renderer().facts();
     const double mebi = 1.0 / (1024.0 * 1024.0);
     const scene::Camera camera = session.camera();
@@ -142,6 +143,7 @@ void factsPanel(Session& session) {
                                        double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi).c_str());
     ImGui::TextUnformatted(fmt::format("eye {:.2f} {:.2f} {:.2f}", camera.eye.x, camera.eye.y, camera.eye.z).c_str());
     ImGui::TextUnformatted(session.engine.device().caps().deviceName.c_str());
+    ImGui::PopTextWrapPos();
 }
 
 void errorPanel(const std::vector<std::string>& errors) {
@@ -166,25 +168,25 @@ void noticeLine(const Session& session) {
     ImGui::End();
 }
 
-}  // namespace
-
-void drawKeys() {
+// Where the panels stand follows the window when that is resized; else they stay where they were dragged.
+ImGuiCond placing() {
+    static ImVec2 last{0.0f, 0.0f};
+    static int frame = -1;
+    static ImGuiCond condition = ImGuiCond_Always;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x * 0.5f, size.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
-    if (ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) ImGui::TextUnformatted(keyPage(false).c_str());
-    ImGui::End();
+    if (frame != ImGui::GetFrameCount()) {
+        condition = size.x != last.x || size.y != last.y ? ImGuiCond_Always : ImGuiCond_FirstUseEver;
+        frame = ImGui::GetFrameCount();
+        last = size;
+    }
+    return condition;
 }
 
-void drawPanels(Session& session) {
-    noticeLine(session);
-    errorPanel(session.engine.shaders().errors());
-    if (session.showKeys) drawKeys();
-    if (!session.showOverlay) return;
+float panelWidth() { return std::min(ImGui::GetFontSize() * 25.0f, ImGui::GetIO().DisplaySize.x * 0.42f); }
 
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float width = std::min(ImGui::GetFontSize() * 26.0f, size.x * 0.45f);
-    ImGui::SetNextWindowPos({8.0f, 8.0f}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({width, size.y - 16.0f}, ImGuiCond_FirstUseEver);
+void drawMain(Session& session) {
+    ImGui::SetNextWindowPos({8.0f, 8.0f}, placing());
+    ImGui::SetNextWindowSize({panelWidth(), ImGui::GetIO().DisplaySize.y - 16.0f}, placing());
     if (ImGui::Begin("Obscura")) {
         ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
         methodMenu(session);
@@ -201,10 +203,35 @@ void drawPanels(Session& session) {
         ImGui::PopItemWidth();
     }
     ImGui::End();
-    ImGui::SetNextWindowPos({size.x - width - 8.0f, 8.0f}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({width, std::min(size.y - 16.0f, ImGui::GetFontSize() * 36.0f)}, ImGuiCond_FirstUseEver);
+}
+
+void drawTimesWindow(const Session& session) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x - panelWidth() - 8.0f, 8.0f}, placing());
+    ImGui::SetNextWindowSize({panelWidth(), std::min(size.y - 16.0f, ImGui::GetFontSize() * 36.0f)}, placing());
     if (ImGui::Begin("Times")) drawTimes(session);
     ImGui::End();
+}
+
+}  // namespace
+
+void drawKeys() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x * 0.5f, size.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(0.97f);
+    ImGui::SetNextWindowFocus();  // above the panels
+    if (ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) ImGui::TextUnformatted(keyPage(false).c_str());
+    ImGui::End();
+}
+
+void drawPanels(Session& session) {
+    noticeLine(session);
+    errorPanel(session.engine.shaders().errors());
+    if (session.showOverlay) {
+        drawMain(session);
+        drawTimesWindow(session);
+    }
+    if (session.showKeys) drawKeys();
 }
 
 }  // namespace obscura::game

@@ -72,8 +72,7 @@ Stage::Stage(const std::string& scene) {
 
 void Stage::loadNamed(const SceneInfo& named) {
     info = named;
-    std::optional<fs::path> found;
-    for (size_t i = 0; i < info.files.size() && !found; ++i) found = findContent(info.files[i]);
+    const std::optional<fs::path> found = findContent(info.files);
     if (!found) throw Complaint(fmt::format("--scene {}: {} is not there; {}", info.name, info.files.front(), info.howToGet));
     file = found->string();
     world.add({.model = scene::loadGltf(*found)});
@@ -239,8 +238,7 @@ scene::Camera Stage::camera(const CameraChoice& choice, float time) {
 std::string sceneList() {
     std::string text;
     for (const SceneInfo& info : loadManifest()) {
-        std::optional<fs::path> found;
-        for (size_t i = 0; i < info.files.size() && !found; ++i) found = findContent(info.files[i]);
+        const std::optional<fs::path> found = findContent(info.files);
         text += fmt::format("{:<10} {}\n{:<10} {}\n", info.name, info.title, "", found ? found->string() : "missing: " + info.howToGet);
     }
     return text;
