@@ -11,9 +11,10 @@ namespace obscura::ao {
 
 MethodEntry noneEntry();
 MethodEntry hbaoEntry();
+MethodEntry horizonSplitEntry();
 
 std::span<const MethodEntry> registry() {
-    static const MethodEntry kEntries[] = {noneEntry(), hbaoEntry()};
+    static const MethodEntry kEntries[] = {noneEntry(), hbaoEntry(), horizonSplitEntry()};
     return kEntries;
 }
 

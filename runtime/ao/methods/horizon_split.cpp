@@ -1,0 +1,130 @@
+// Horizon-split ambient occlusion [Dimitrov, Bavoil, Sainz: Horizon-Split Ambient Occlusion, I3D 2008 poster]. For each of
+// N_d directions around the normal a line starts in the tangent plane and is bent up by whatever stands before it, to an
+// elevation of sine H: the horizon. All below it is blocked, in closed form,
+//     O_T = 1/N_d sum over directions of H^2                                                  [eq. 6, without its stray dz]
+// and N_n rays test what is above it:
+//     O_N = 1/N_d sum over directions of (1 - H^2)/N_n sum over rays of V                      [eq. 11]
+//
+// Where the paper is silent or mistaken:
+// - Normal rays share out 1 - H^2 of their own direction [eq. 8-10 use the mean O_T, which counts twice: up to 1 + H^2].
+// - Distance: each rise from H to s counts s^2 - H^2 with the mean of the falloffs at its two ends, instead of one falloff
+//   for the whole; the falloff is the shared type.
+// - Lines start one whole pixel above the surface [eq. 13 gives half of one]: with it any plane is open to the last bit.
+// - The elevation is that of the point found, a texel's centre, not its projection on the plane of n and t.
+// - Normal rays pass behind surfaces thicker than `thickness`; in the paper everything is infinitely thick.
+//
+// Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: horizons (1 - O_T),
+// normal rays (1 - O_N alone, and both), blur.
+#include <algorithm>
+#include <iterator>
+
+#include "ao/resolve.h"
+
+namespace obscura::ao {
+namespace {
+
+struct Constants {  // horizons.comp and normal_rays.comp
+    shared::FalloffBlock falloff;
+    uint32_t directions;
+    uint32_t steps;
+    float radius;     // metres
+    float offset;     // pixels
+    float jitter;
+    uint32_t rays;    // horizons.comp only asks whether there are any
+    float thickness;  // metres
+};
+
+enum Term : uint32_t { kBoth, kHorizon, kNormalRays, kMarching };
+enum Blur : uint32_t { kNone, kDepthDeviation, kSurface };
+const char* const kTerms[] = {"both", "horizon", "normal rays", "ray marching"};
+const char* const kBlurs[] = {"none", "depth", "surface"};
+
+const Parameter kParameters[] = {
+    {"directions", "", 1, 24, 8, true, {}, "Directions around the normal, N_d; cost grows with directions x steps x (1 + normal rays)."},
+    {"steps", "", 1, 64, 18, true, {}, "Samples along each horizon and each normal ray, N_s."},
+    {"normal_rays", "", 0, 8, 1, true, {}, "Rays above each horizon, N_n: contact under what does not touch. 0 halves the cost."},
+    {"radius", "m", 0, 100, 0, false, {}, "Radius of influence, R; 0 is the falloff's own reach."},
+    {"thickness", "R", 0.01f, 100, 0.25f, false, {}, "How thick what blocks a normal ray is, in radii; large darkens behind silhouettes."},
+    {"offset", "px", 0, 4, 1, false, {}, "How far above the surface lines start; below 1 slanted planes shadow themselves."},
+    {"jitter", "", 0, 1, 1, false, {}, "How much steps are shifted from pixel to pixel; 0 shows bands."},
+    {"term", "", 0, 3, 0, true, {kTerms, 4}, "What is shown: the sum, one term alone, or rays through the whole hemisphere with no horizon at all."},
+    {"blur", "", 0, 2, 2, true, {kBlurs, 3}, "5x5 over the 4x4 noise tile: by depth as in the paper, or along the surface."},
+};
+const Setting kPaperFast[] = {{"directions", 6}, {"steps", 9}, {"normal_rays", 0}, {"blur", kDepthDeviation}};
+const Setting kPaper[] = {{"directions", 7}, {"steps", 12}, {"blur", kDepthDeviation}};
+const Setting kQuality[] = {{"directions", 18}, {"steps", 25}, {"normal_rays", 2}};
+const Preset kPresets[] = {
+    {"default", "8 directions x 18 steps, one normal ray.", {}},
+    {"paper_fast", "6 x 9 and horizons alone, the paper's fast setting and its blur.", {kPaperFast, std::size(kPaperFast)}},
+    {"paper", "7 x 12 and one normal ray, as in the paper's table 1, and its blur.", {kPaper, std::size(kPaper)}},
+    {"quality", "18 x 25 and two normal rays, the paper's best.", {kQuality, std::size(kQuality)}},
+};
+const MethodInfo kInfo{"horizon_split",
+                       "Horizon-split ambient occlusion",
+                       "Dimitrov, Bavoil, Sainz: Horizon-Split Ambient Occlusion, 2008",
+                       "Closed form below a traced horizon, rays above it.",
+                       kDepth | kNormals,
+                       {kParameters, std::size(kParameters)},
+                       {kPresets, std::size(kPresets)}};
+
+class HorizonSplit final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<HorizonSplit>();
+        const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/horizon_split/horizons.comp", &result->m_horizons},
+                                                                                {"ao/horizon_split/normal_rays.comp", &result->m_normalRays},
+                                                                                {"ao/horizon_split/blur.comp", &result->m_blur}};
+        for (const auto& [name, program] : programs)
+            if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+        if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
+        return result;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        const auto& visible = inputs.view.visible;
+        const uint32_t term = values.count("term");
+        const float reach = inputs.falloff.reach, radius = values["radius"] > 0.0f ? std::min(values["radius"], reach) : reach;
+        Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), radius, values["offset"], values["jitter"],
+                            values.count("normal_rays"), values["thickness"] * radius};
+        if (term == kHorizon) constants.rays = 0;
+        if (term == kNormalRays || term == kMarching) constants.rays = std::max(constants.rays, 1u);
+
+        const gpu::ImageDesc picture{VK_FORMAT_R16_SFLOAT, visible.x, visible.y};
+        const uint32_t words = (constants.directions + 3) / 4;  // four horizons each, two words beside each other
+        const graph::ImageId horizons = graph.image("horizon_split.horizon sines",
+            {VK_FORMAT_R32_UINT, constants.rays ? visible.x * std::min(words, 2u) : 1, constants.rays ? visible.y * ((words + 1) / 2) : 1});
+        graph::ImageId result = graph.image("horizon_split.below horizon", picture);
+        Constants tracing = constants;
+        if (term == kMarching) tracing.steps = 0;  // a horizon nobody looks for stays at 0, and the rays take the whole hemisphere
+        graph.pass("horizon_split.horizons", m_horizons).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(result).write(horizons)
+            .constants(tracing).dispatch(visible.x, visible.y);
+        if (constants.rays) {
+            const graph::ImageId above = graph.image("horizon_split.above horizon", picture), both = graph.image("horizon_split.visibility", picture);
+            graph.pass("horizon_split.normal rays", m_normalRays).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(result).read(horizons)
+                .write(above).write(both).constants(constants).dispatch(visible.x, visible.y);
+            result = term == kNormalRays ? above : both;
+        }
+        return blurred(graph, inputs, result, values.count("blur"));
+    }
+
+private:
+    graph::ImageId blurred(graph::Graph& graph, const Inputs& inputs, graph::ImageId source, uint32_t blur) {
+        if (blur == kNone) return source;
+        if (blur == kSurface) return m_denoise.add(graph, inputs, source, "horizon_split.blur");
+        const graph::ImageId result = graph.image("horizon_split.blur", graph.desc(source));
+        graph.pass("horizon_split.blur", m_blur).read(inputs.viewBlock).read(inputs.depth).read(source).write(result)
+            .dispatch(inputs.view.visible.x, inputs.view.visible.y);
+        return result;
+    }
+
+    gpu::Program m_horizons;
+    gpu::Program m_normalRays;
+    gpu::Program m_blur;
+    Denoise m_denoise;
+};
+
+}  // namespace
+
+MethodEntry horizonSplitEntry() { return {&kInfo, &HorizonSplit::create}; }
+
+}  // namespace obscura::ao

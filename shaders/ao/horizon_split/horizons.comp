@@ -1,0 +1,103 @@
+// Horizon tracing and the occlusion below the horizon [Dimitrov, sec. 3.1, 3.2, 3.5]: a line starts in the tangent plane
+// and is bent up, towards the eye, by whatever stands before it.
+// In: linear depth, packed normals (guard band included). Out: 1 - O_T, R16F; H^2 per direction, for the normal rays.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/horizon_split/march.glsl"
+#include "shared/falloff.h"
+#include "shared/octahedral.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
+layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D horizons;
+layout(push_constant) uniform Constants {
+    FalloffBlock falloffBlock;
+    uint directions;
+    uint steps;
+    float radius;     // metres
+    float offset;     // pixels
+    float jitter;     // of the steps, 0..1
+    uint keep;        // 1: somebody wants the horizons
+};
+
+// One direction's line on its way. `sine` of its elevation is H.
+struct Line {
+    vec3 t, along;    // tangent; the same in homogeneous pixels
+    float l;          // metres to the next step
+    float sine, cosine;
+    float before;     // falloff where the strip being looked for begins
+    float occlusion;
+};
+
+// One step: does the surface at the line's end stand before it? Then it bends the line up.
+void march(inout Line line, Origin origin, vec3 start, vec3 up, Lens lens, FalloffBlock rho, float reach, float stepLength) {
+    vec3 q = start + line.l * (line.cosine * line.along + line.sine * up);
+    ivec2 at;
+    bool inside = texelOf(lens, q, at);
+    float z = imageLoad(depth, at).x;
+    vec3 v = surfaceAt(lens, at, z) - origin.position;
+    float square = dot(v, v);
+    float inverse = inversesqrt(max(square, 1e-20));
+    float s = dot(v, origin.n) * inverse, distance = square * inverse;
+    bool raises = inside && z < q.z && distance < reach && dot(v, line.t) > 0.0 && s > line.sine;
+    // Until the first rise a strip begins at the tangent plane, where the line is: one evaluation serves both.
+    float here = falloff(rho, raises ? distance : line.l);
+    // H^2 gained by this strip, weighted by the mean of its two ends [Dimitrov, eq. 6, sec. 3.5].
+    line.occlusion += raises ? (s * s - line.sine * line.sine) * 0.5 * (here + max(here, line.before)) : 0.0;
+    line.before = raises || line.sine == 0.0 ? here : line.before;
+    line.sine = raises ? s : line.sine;
+    line.cosine = sqrt(max(1.0 - line.sine * line.sine, 0.0));
+    line.l += stepLength;
+}
+
+void main() {
+    View view = viewBlock;  // copies, so that the loops hold them in registers
+    FalloffBlock rho = falloffBlock;
+    float reach = radius;
+    uint count = steps;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 texel = p + ivec2(view.guard);
+    float z = imageLoad(depth, texel).x;
+    if (isSky(view, z)) {
+        imageStore(visibility, p, vec4(1.0));
+        return;
+    }
+    Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), offset);
+    Noise noise = noiseAt(texel);
+    Lens lens = lensOf(view);
+    vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
+    float stepLength = reach / float(max(count, 1u));
+    float turn = 6.28318531 / float(directions);
+    vec2 direction = vec2(cos(noise.rotation * turn), sin(noise.rotation * turn));
+    mat2 next = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+
+    float occlusion = 0.0;
+    uint word = 0u;
+    // Two lines at a time: a step waits for the one before it, and the other line's step fills the wait.
+    for (uint i = 0u; i < directions; i += 2u) {
+        Line lines[2];
+        for (uint k = 0u; k < 2u; ++k) {
+            vec3 t = direction.x * origin.b + direction.y * origin.c;
+            float l = mix(0.5, fract(noise.step + float(i + k) * kNextStep), jitter) * stepLength;
+            lines[k] = Line(t, toPixels(lens, t), l, 0.0, 1.0, 1.0, 0.0);
+            direction = next * direction;
+        }
+        for (uint j = 0u; j < count; ++j) {
+            march(lines[0], origin, start, up, lens, rho, reach, stepLength);
+            march(lines[1], origin, start, up, lens, rho, reach, stepLength);
+        }
+        if (i + 1u == directions) lines[1].sine = lines[1].occlusion = 0.0;  // an odd count's last line is alone
+        occlusion += lines[0].occlusion + lines[1].occlusion;
+        // Rounded up: no ray may start below the horizon, and both terms together stay at most 1.
+        uvec2 sines = uvec2(ceil(vec2(lines[0].sine * lines[0].sine, lines[1].sine * lines[1].sine) * 255.0));
+        word |= (min(sines.x, 255u) | min(sines.y, 255u) << 8) << (8u * (i & 2u));
+        if ((i & 2u) != 0u || i + 2u >= directions) {
+            if (keep != 0u) imageStore(horizons, wordAt(p, i >> 2, view.visible), uvec4(word));
+            word = 0u;
+        }
+    }
+    imageStore(visibility, p, vec4(clamp(1.0 - occlusion / float(directions), 0.0, 1.0)));
+}

@@ -1,0 +1,59 @@
+// What horizons and normal rays share: the noise tile, the frame of directions around a normal, and points of a line in
+// eye space told as pixels. Lines are kept in homogeneous pixels, so that a step costs two additions and one division.
+#ifndef OBSCURA_HORIZON_SPLIT_MARCH_GLSL
+#define OBSCURA_HORIZON_SPLIT_MARCH_GLSL
+#include "shared/view.h"
+
+// Two permutations of 0..15 over a 4x4 tile; the third noise is a third one. Values are (i + 0.5) / 16.
+const float kRotation[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+const float kStep[16] = float[](5, 13, 7, 15, 9, 1, 11, 3, 6, 14, 4, 12, 10, 2, 8, 0);
+const float kNormal[16] = float[](9, 2, 12, 7, 4, 15, 1, 10, 14, 5, 11, 0, 3, 8, 6, 13);
+// From direction to direction step and elevation move on by these, so that one pixel's lines do not sample in one rhythm.
+const float kNextStep = 0.61803399, kNextNormal = 0.75487767;
+
+struct Noise {  // each in [0,1)
+    float rotation, step, normal;
+};
+Noise noiseAt(ivec2 texel) {
+    int tile = (texel.y & 3) * 4 + (texel.x & 3);
+    return Noise((kRotation[tile] + 0.5) / 16.0, (kStep[tile] + 0.5) / 16.0, (kNormal[tile] + 0.5) / 16.0);
+}
+
+// Where a pixel's lines start and around what they turn.
+struct Origin {
+    vec3 position;  // a pixel's footprint above the surface [Dimitrov, eq. 13; a whole pixel, see the method's file]
+    vec3 n, b, c;   // normal and two tangents
+};
+Origin originAt(View view, ivec2 texel, float z, vec3 n, float offset) {
+    vec3 p = eyePosition(view, vec2(texel) + 0.5, z);
+    n = dot(n, towardsEye(view, p)) < 0.0 ? -n : n;
+    float a = 1.0 / (1.0 + max(n.z, -0.999));  // [Frisvad 2012] for normals that face the camera
+    float footprint = (view.orthographic > 0.5 ? 1.0 : z) / view.pixelsPerMetre;
+    return Origin(p + n * (offset * footprint), n, vec3(1.0 - n.x * n.x * a, -n.x * n.y * a, -n.x), vec3(-n.x * n.y * a, 1.0 - n.y * n.y * a, -n.y));
+}
+
+// The camera as a line needs it. `scale` of a depth is what one metre across has grown to: (depth, or 1 when orthographic).
+struct Lens {
+    vec4 project, unproject;
+    vec2 scale;     // scale(depth) = depth * x + y
+    uvec2 size;
+};
+Lens lensOf(View view) {
+    return Lens(view.project, view.unproject, view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0), view.size);
+}
+vec3 toPixels(Lens lens, vec3 v) { return vec3(v.xy * lens.project.xy, -v.z); }
+// The texel a homogeneous point falls on, and whether it is one: in front of the camera and inside the buffer.
+bool texelOf(Lens lens, vec3 q, out ivec2 texel) {
+    vec2 at = q.xy / (q.z * lens.scale.x + lens.scale.y) + lens.project.zw;
+    uvec2 t = uvec2(ivec2(at));
+    texel = ivec2(min(t, lens.size - 1u));
+    return t.x < lens.size.x && t.y < lens.size.y && q.z > 0.0;
+}
+vec3 surfaceAt(Lens lens, ivec2 texel, float z) {
+    return vec3(((vec2(texel) + 0.5) * lens.unproject.xy + lens.unproject.zw) * (z * lens.scale.x + lens.scale.y), -z);
+}
+
+// H^2 of every direction in 8 bits, four directions a word; words stand beside and below each other in one image.
+ivec2 wordAt(ivec2 p, uint word, uvec2 visible) { return p + ivec2(uvec2(word & 1u, word >> 1) * visible); }
+
+#endif

@@ -1,0 +1,89 @@
+// Normal rays: what blocks the hemisphere above the horizon [Dimitrov, sec. 3.3]. Every direction has its own share 1-H^2.
+// In: linear depth, packed normals, 1 - O_T, H^2 per direction. Out: 1 - O_N, and both terms together.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/horizon_split/march.glsl"
+#include "shared/falloff.h"
+#include "shared/octahedral.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform readonly image2D belowHorizon;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D horizons;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D aboveHorizon;
+layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
+layout(push_constant) uniform Constants {
+    FalloffBlock falloffBlock;
+    uint directions;
+    uint steps;
+    float radius;     // metres
+    float offset;     // pixels
+    float jitter;     // of the steps, 0..1
+    uint rays;        // per direction
+    float thickness;  // metres
+};
+
+const float kFree = 3e38;
+
+// How far along the ray start + l * ray (homogeneous pixels) something stands in its way; kFree: nothing. Here the depth
+// buffer answers, whose surfaces are `thick` metres deep; rays in a voxel grid are a second function of this kind.
+float blockedAt(Lens lens, vec3 start, vec3 ray, float first, float stepLength, uint count, float thick) {
+    float result = kFree, l = first;
+    for (uint j = 0u; j < count; ++j) {
+        vec3 q = start + l * ray;
+        ivec2 at;
+        bool inside = texelOf(lens, q, at);
+        float behind = q.z - imageLoad(depth, at).x;
+        result = inside && behind > 0.0 && behind < thick ? min(result, l) : result;
+        l += stepLength;
+    }
+    return result;
+}
+
+void main() {
+    View view = viewBlock;  // copies, so that the loops hold them in registers
+    FalloffBlock rho = falloffBlock;
+    uint count = steps;
+    float thick = thickness;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 texel = p + ivec2(view.guard);
+    float z = imageLoad(depth, texel).x;
+    if (isSky(view, z)) {
+        imageStore(aboveHorizon, p, vec4(1.0));
+        imageStore(visibility, p, vec4(1.0));
+        return;
+    }
+    Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), offset);
+    Noise noise = noiseAt(texel);
+    Lens lens = lensOf(view);
+    vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
+    float stepLength = radius / float(count);
+    float turn = 6.28318531 / float(directions);
+    vec2 direction = vec2(cos(noise.rotation * turn), sin(noise.rotation * turn));
+    mat2 next = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+
+    float occlusion = 0.0;
+    uint word = 0u;
+    for (uint i = 0u; i < directions; ++i) {
+        if ((i & 3u) == 0u) word = imageLoad(horizons, wordAt(p, i >> 2, view.visible)).x;
+        float horizon2 = float(word & 255u) / 255.0;
+        word >>= 8u;
+        vec3 along = toPixels(lens, direction.x * origin.b + direction.y * origin.c);
+        float first = mix(0.5, fract(noise.step + float(i) * kNextStep), jitter) * stepLength;
+        float elevation = fract(noise.normal + float(i) * kNextNormal);
+        // Equal shares of what is left above this direction's horizon [Dimitrov, eq. 8-11, per direction].
+        float share = (1.0 - horizon2) / float(rays);
+        for (uint k = 0u; k < rays; ++k) {
+            float sine2 = horizon2 + (float(k) + elevation) * share;
+            vec3 ray = sqrt(max(1.0 - sine2, 0.0)) * along + sqrt(sine2) * up;
+            float l = blockedAt(lens, start, ray, first, stepLength, count, thick);
+            occlusion += share * falloff(rho, 0.5 * (l + max(l - stepLength, 0.0)));
+        }
+        direction = next * direction;
+    }
+    occlusion /= float(directions);
+    imageStore(aboveHorizon, p, vec4(clamp(1.0 - occlusion, 0.0, 1.0)));
+    imageStore(visibility, p, vec4(clamp(imageLoad(belowHorizon, p).x - occlusion, 0.0, 1.0)));
+}
