@@ -1,7 +1,7 @@
-#include "content_helpers.hpp"
+#include "content_helpers.h"
 
-#include "atrium/atrium_scene.hpp"
-#include "toasters/toaster_scene.hpp"
+#include "atrium/atrium_scene.h"
+#include "toasters/toaster_scene.h"
 
 #include <cmath>
 #include <cstdlib>

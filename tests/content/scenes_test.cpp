@@ -1,10 +1,10 @@
 // What both generated files promise: size, determinism, closed loops, sound geometry.
-#include "atrium/atrium_layout.hpp"
-#include "atrium/atrium_scene.hpp"
-#include "content_helpers.hpp"
-#include "meshkit/file_output.hpp"
-#include "meshkit/glb_writer.hpp"
-#include "toasters/toaster_scene.hpp"
+#include "atrium/atrium_layout.h"
+#include "atrium/atrium_scene.h"
+#include "content_helpers.h"
+#include "meshkit/file_output.h"
+#include "meshkit/glb_writer.h"
+#include "toasters/toaster_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // How the toys move: feet on the ground, no jump in the loop, no toy inside another.
-#include "content_helpers.hpp"
-#include "meshkit/pose.hpp"
-#include "toasters/toaster_scene.hpp"
-#include "toasters/toaster_script.hpp"
-#include "toasters/tray.hpp"
+#include "content_helpers.h"
+#include "meshkit/pose.h"
+#include "toasters/toaster_scene.h"
+#include "toasters/toaster_script.h"
+#include "toasters/tray.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Holds the written files against the Khronos validator, where node and its package are at hand.
-#include "content_helpers.hpp"
-#include "meshkit/file_output.hpp"
-#include "meshkit/glb_writer.hpp"
+#include "content_helpers.h"
+#include "meshkit/file_output.h"
+#include "meshkit/glb_writer.h"
 
 #include <array>
 #include <cstdio>

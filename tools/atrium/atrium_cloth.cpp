@@ -1,8 +1,8 @@
-#include "atrium/atrium_parts.hpp"
-#include "meshkit/shapes.hpp"
+#include "atrium/atrium_parts.h"
+#include "meshkit/shapes.h"
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::atrium {
 

@@ -1,6 +1,6 @@
-#include "atrium/atrium_parts.hpp"
-#include "meshkit/image.hpp"
-#include "meshkit/shapes.hpp"
+#include "atrium/atrium_parts.h"
+#include "meshkit/image.h"
+#include "meshkit/shapes.h"
 
 #include <cmath>
 

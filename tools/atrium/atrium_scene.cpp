@@ -1,12 +1,12 @@
-#include "atrium/atrium_scene.hpp"
+#include "atrium/atrium_scene.h"
 
-#include "atrium/atrium_parts.hpp"
-#include "atrium/atrium_textures.hpp"
-#include "meshkit/shapes.hpp"
+#include "atrium/atrium_parts.h"
+#include "atrium/atrium_textures.h"
+#include "meshkit/shapes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::atrium {
 

@@ -1,5 +1,5 @@
-#include "atrium/atrium_parts.hpp"
-#include "meshkit/shapes.hpp"
+#include "atrium/atrium_parts.h"
+#include "meshkit/shapes.h"
 
 #include <algorithm>
 #include <array>

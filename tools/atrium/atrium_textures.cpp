@@ -1,10 +1,10 @@
-#include "atrium/atrium_textures.hpp"
+#include "atrium/atrium_textures.h"
 
-#include "meshkit/track.hpp"
+#include "meshkit/track.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::atrium {
 

@@ -1,6 +1,6 @@
-#include "atrium/atrium_scene.hpp"
-#include "meshkit/file_output.hpp"
-#include "meshkit/glb_writer.hpp"
+#include "atrium/atrium_scene.h"
+#include "meshkit/file_output.h"
+#include "meshkit/glb_writer.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

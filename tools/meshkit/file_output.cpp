@@ -1,4 +1,4 @@
-#include "meshkit/file_output.hpp"
+#include "meshkit/file_output.h"
 
 #include <fstream>
 #include <stdexcept>

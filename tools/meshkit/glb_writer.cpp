@@ -1,4 +1,4 @@
-#include "meshkit/glb_writer.hpp"
+#include "meshkit/glb_writer.h"
 
 #include <algorithm>
 #include <map>

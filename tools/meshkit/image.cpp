@@ -1,4 +1,4 @@
-#include "meshkit/image.hpp"
+#include "meshkit/image.h"
 
 #include <cmath>
 #include <stdexcept>

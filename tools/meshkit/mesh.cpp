@@ -1,4 +1,4 @@
-#include "meshkit/mesh.hpp"
+#include "meshkit/mesh.h"
 
 #include <cmath>
 #include <map>

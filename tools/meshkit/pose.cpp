@@ -1,7 +1,7 @@
-#include "meshkit/pose.hpp"
+#include "meshkit/pose.h"
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/matrix_transform.h>
 
 namespace obscura::kit {
 

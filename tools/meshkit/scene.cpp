@@ -1,4 +1,4 @@
-#include "meshkit/scene.hpp"
+#include "meshkit/scene.h"
 
 #include <cmath>
 #include <stdexcept>

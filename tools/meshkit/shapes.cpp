@@ -1,9 +1,9 @@
-#include "meshkit/shapes.hpp"
+#include "meshkit/shapes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/constants.h>
+#include <glm/gtc/matrix_transform.h>
 
 namespace obscura::kit {
 

@@ -1,4 +1,4 @@
-#include "meshkit/track.hpp"
+#include "meshkit/track.h"
 
 #include <algorithm>
 #include <cmath>

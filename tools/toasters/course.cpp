@@ -1,8 +1,8 @@
-#include "toasters/course.hpp"
+#include "toasters/course.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::toasters {
 

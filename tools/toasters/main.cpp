@@ -1,6 +1,6 @@
-#include "meshkit/file_output.hpp"
-#include "meshkit/glb_writer.hpp"
-#include "toasters/toaster_scene.hpp"
+#include "meshkit/file_output.h"
+#include "meshkit/glb_writer.h"
+#include "toasters/toaster_scene.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

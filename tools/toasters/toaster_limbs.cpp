@@ -1,6 +1,6 @@
-#include "meshkit/shapes.hpp"
-#include "meshkit/track.hpp"
-#include "toasters/toaster_model.hpp"
+#include "meshkit/shapes.h"
+#include "meshkit/track.h"
+#include "toasters/toaster_model.h"
 
 #include <cmath>
 

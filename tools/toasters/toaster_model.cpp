@@ -1,9 +1,9 @@
-#include "toasters/toaster_model.hpp"
+#include "toasters/toaster_model.h"
 
-#include "meshkit/shapes.hpp"
+#include "meshkit/shapes.h"
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::toasters {
 

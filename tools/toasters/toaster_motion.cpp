@@ -1,11 +1,11 @@
-#include "toasters/toaster_motion.hpp"
+#include "toasters/toaster_motion.h"
 
-#include "toasters/toaster_scene.hpp"
+#include "toasters/toaster_scene.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/constants.h>
+#include <glm/gtc/matrix_transform.h>
 
 namespace obscura::toasters {
 

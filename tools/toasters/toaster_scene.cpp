@@ -1,12 +1,12 @@
-#include "toasters/toaster_scene.hpp"
+#include "toasters/toaster_scene.h"
 
-#include "meshkit/shapes.hpp"
-#include "toasters/toaster_motion.hpp"
-#include "toasters/tray.hpp"
+#include "meshkit/shapes.h"
+#include "toasters/toaster_motion.h"
+#include "toasters/tray.h"
 
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::toasters {
 

@@ -1,10 +1,10 @@
-#include "toasters/toaster_script.hpp"
+#include "toasters/toaster_script.h"
 
-#include "toasters/toaster_scene.hpp"
+#include "toasters/toaster_scene.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::toasters {
 

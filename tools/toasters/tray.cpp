@@ -1,11 +1,11 @@
-#include "toasters/tray.hpp"
+#include "toasters/tray.h"
 
-#include "meshkit/shapes.hpp"
-#include "toasters/toaster_model.hpp"
+#include "meshkit/shapes.h"
+#include "toasters/toaster_model.h"
 
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/constants.h>
 
 namespace obscura::toasters {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "atrium/atrium_layout.hpp"
-#include "meshkit/mesh.hpp"
+#include "atrium/atrium_layout.h"
+#include "meshkit/mesh.h"
 
-#include <glm/glm.hpp>
+#include <glm/glm.h>
 
 namespace obscura::atrium {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <glm/glm.hpp>
+#include <glm/glm.h>
 #include <vector>
 
 namespace obscura::kit {

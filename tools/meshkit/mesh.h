@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <glm/glm.hpp>
+#include <glm/glm.h>
 #include <vector>
 
 namespace obscura::kit {

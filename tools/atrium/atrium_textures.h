@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshkit/image.hpp"
+#include "meshkit/image.h"
 
 namespace obscura::atrium {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "meshkit/track.hpp"
-#include "toasters/course.hpp"
+#include "meshkit/track.h"
+#include "toasters/course.h"
 
 #include <vector>
 

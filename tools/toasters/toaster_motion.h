@@ -1,10 +1,10 @@
 #pragma once
 
-#include "toasters/toaster_model.hpp"
-#include "toasters/toaster_script.hpp"
+#include "toasters/toaster_model.h"
+#include "toasters/toaster_script.h"
 
 #include <array>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/quaternion.h>
 #include <vector>
 
 namespace obscura::toasters {

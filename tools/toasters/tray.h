@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshkit/mesh.hpp"
+#include "meshkit/mesh.h"
 
 namespace obscura::toasters {
 

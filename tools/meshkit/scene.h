@@ -1,10 +1,10 @@
 #pragma once
 
-#include "meshkit/image.hpp"
-#include "meshkit/mesh.hpp"
+#include "meshkit/image.h"
+#include "meshkit/mesh.h"
 
 #include <functional>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/quaternion.h>
 #include <string>
 #include <vector>
 

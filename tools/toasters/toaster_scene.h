@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshkit/scene.hpp"
+#include "meshkit/scene.h"
 
 namespace obscura::toasters {
 
