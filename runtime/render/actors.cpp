@@ -6,6 +6,8 @@
 namespace obscura::render {
 namespace {
 
+constexpr uint32_t kSettled = 8;  // frames
+
 scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix) {
     scene::Bounds out;
     if (box.empty) return out;
@@ -139,7 +141,6 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
         if (!samePoses) actor.version = ++m_versions;
         actor.time = when;
         actor.animation = instance.animation;
-        actor.fresh = false;
 
         // Joint matrices of the skins in use; also what deformed bounds follow from.
         std::map<int, std::vector<glm::mat4>> skins;
@@ -168,6 +169,9 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
             drawable.world = piece.skinned ? instance.placement : instance.placement * actor.pose.world[size_t(piece.node)];
             drawable.previousWorld = fresh ? drawable.world : piece.world;
             drawable.still = fresh || (drawable.world == piece.world && (piece.posed == kNotPosed || samePoses));
+            // What is rigid is taken to be at rest until it moves.
+            piece.rested = actor.fresh ? (piece.posed == kNotPosed ? kSettled : 0) : drawable.still ? std::min(piece.rested + 1, kSettled) : 0;
+            drawable.settled = piece.rested >= kSettled;
             const glm::vec3 reach = morphReach(primitive, actor.pose.weights[size_t(piece.node)]);
             glm::mat4 facing = drawable.world;
             if (piece.skinned) {
@@ -183,6 +187,7 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
             piece.world = drawable.world;
             m_drawables.push_back(std::move(drawable));
         }
+        actor.fresh = false;
     }
     for (auto it = m_actors.begin(); it != m_actors.end();) {
         if (it->second.seen) { ++it; continue; }

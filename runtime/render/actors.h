@@ -23,6 +23,7 @@ struct Drawable {
     uint32_t posed = kNotPosed;                  // first vertex in the posed buffers
     bool fresh = false;                          // nothing of last frame is known: its positions then are those of now
     bool still = false;                          // has not moved since last frame
+    bool settled = false;                        // nor for a while before
     bool flipped = false;                        // negative determinant: winding is reversed
     uint64_t version = 0;                        // changes with the deformed shape
 };
@@ -62,6 +63,7 @@ private:
         bool skinned = false;
         uint32_t posed = kNotPosed;
         glm::mat4 world{1.0f};  // last frame's, until updated
+        uint32_t rested = 0;    // frames it has been still
     };
     struct Actor {
         std::shared_ptr<const scene::Model> model;

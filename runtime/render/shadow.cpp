@@ -70,14 +70,63 @@ Status Shadow::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Sh
     return gpu::Program::graphics(device, shaders, "scene/shadow_masked.vert", "scene/shadow_masked.frag", state, {}, out.m_masked);
 }
 
+// Draws in an order that lets instances merge; their items go to m_items.
+void Shadow::collect(Layer& layer, std::vector<const Drawable*> casters, const glm::mat4& clip) {
+    layer.solid.clear();
+    layer.masked.clear();
+    std::stable_sort(casters.begin(), casters.end(), [](const Drawable* a, const Drawable* b) {
+        return std::pair(a->model->serial, a->primitive->serial) < std::pair(b->model->serial, b->primitive->serial);
+    });
+    for (const Drawable* caster : casters) {
+        const bool masked = caster->primitive->material->alphaMode == scene::AlphaMode::mask;
+        std::vector<Draw>& draws = masked ? layer.masked : layer.solid;
+        const uint32_t item = uint32_t(m_items.size());
+        const glm::mat4 matrix = clip * caster->world;
+        m_items.push_back({{rowOf(matrix, 0), rowOf(matrix, 1), rowOf(matrix, 2)}});
+        const bool again = !draws.empty() && draws.back().first->primitive == caster->primitive && draws.back().item + draws.back().count == item &&
+                           caster->posed == kNotPosed && draws.back().first->posed == kNotPosed;
+        if (again) ++draws.back().count;
+        else draws.push_back({caster, item, 1});
+    }
+}
+
+graph::ImageId Shadow::import(graph::Graph& graph, const Layer& layer, const char* name) {
+    graph::External external;
+    external.image = layer.image.handle();
+    external.view = layer.image.view();
+    external.desc = layer.image.desc();
+    external.layout = layer.drawn ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED;
+    external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    return graph.import(name, external);
+}
+
+void Shadow::draw(graph::Graph& graph, const char* name, Layer& layer, graph::ImageId target, std::optional<float> clear, graph::BufferId items,
+                  const Deform::Posed& posed, Materials& materials) {
+    graph::Pass& pass = graph.pass(name, m_solid).read(items);
+    if (posed.now) pass.use(posed.now, graph::Access::vertex);
+    pass.depth(target, clear).record([this, &layer, posed, &materials](const graph::PassContext& c) {
+        const gpu::Api& vk = c.device.vk();
+        recordDraws(c.cmd, vk, layer.solid, posed.buffers, kPosition, false, nullptr);
+        if (layer.masked.empty()) return;
+        m_masked.refresh();
+        vk.CmdBindPipeline(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_masked.pipeline());
+        recordDraws(c.cmd, vk, layer.masked, posed.buffers, kPosition | kCoords, false, [&](const ModelGpu& model, uint32_t material) {
+            const VkDescriptorSet set = materials.get(model, material, m_masked);
+            vk.CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_masked.layout(), 1, 1, &set, 0, nullptr);
+        });
+    });
+}
+
 Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const Deform::Posed& posed, Materials& materials) {
-    if (!m_image || m_image.desc().width != request.size) {
+    for (Layer* layer : {&m_resting, &m_moving}) {
+        if (layer->image && layer->image.desc().width == request.size) continue;
         gpu::Image fresh;
         const gpu::ImageDesc desc{VK_FORMAT_D32_SFLOAT, request.size, request.size, 1, 1,
-                                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
+                                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                      VK_IMAGE_USAGE_TRANSFER_DST_BIT};
         if (gpu::Image::create(*m_device, desc, "shadow map", fresh) != Status::ok) return {};
-        m_image = std::move(fresh);
-        m_drawn = 0;
+        layer->image = std::move(fresh);
+        layer->drawn = 0;
     }
 
     scene::Bounds world;  // in light space
@@ -97,66 +146,54 @@ Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const
     clip[3] = glm::vec4(-f.centre * (2.0f / f.side), -f.low / (f.high - f.low), 1.0f);
     clip = clip * axes;
 
-    m_solidDraws.clear();
-    m_maskedDraws.clear();
-    m_items.clear();
-    Fingerprint print;
-    print.add(&clip, sizeof(clip));
+    Fingerprint resting, moving;
+    resting.add(&clip, sizeof(clip));
     const Frustum frustum(clip);
     std::vector<const Drawable*> casters[2];
     for (const Drawable& caster : request.casters) {
         const scene::AlphaMode mode = caster.primitive->material->alphaMode;
         if (mode == scene::AlphaMode::blend || (request.skipMasked && mode == scene::AlphaMode::mask) || !frustum.meets(caster.bounds)) continue;
+        Fingerprint& print = caster.settled ? resting : moving;
         const uint32_t serials[] = {caster.model->serial, caster.primitive->serial};
         print.add(serials, sizeof(serials));
         print.add(&caster.world, sizeof(caster.world));
         print.add(&caster.version, sizeof(caster.version));
-        casters[mode == scene::AlphaMode::mask].push_back(&caster);
+        casters[caster.settled ? 0 : 1].push_back(&caster);
     }
-    for (int masked = 0; masked < 2; ++masked) {
-        std::stable_sort(casters[masked].begin(), casters[masked].end(), [](const Drawable* a, const Drawable* b) {
-            return std::pair(a->model->serial, a->primitive->serial) < std::pair(b->model->serial, b->primitive->serial);
-        });
-        std::vector<Draw>& draws = masked ? m_maskedDraws : m_solidDraws;
-        for (const Drawable* caster : casters[masked]) {
-            const uint32_t item = uint32_t(m_items.size());
-            const glm::mat4 matrix = clip * caster->world;
-            m_items.push_back({{rowOf(matrix, 0), rowOf(matrix, 1), rowOf(matrix, 2)}});
-            const bool again = !draws.empty() && draws.back().first->primitive == caster->primitive && caster->posed == kNotPosed &&
-                               draws.back().first->posed == kNotPosed;
-            if (again) ++draws.back().count;
-            else draws.push_back({caster, item, 1});
-        }
-    }
-    if (m_items.empty()) m_items.push_back({});
+    moving.add(&resting.value, sizeof(resting.value));
 
-    graph::External external;
-    external.image = m_image.handle();
-    external.view = m_image.view();
-    external.desc = m_image.desc();
-    external.layout = m_drawn ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED;
-    external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     Map map;
-    map.image = graph.import("shadow map", external);
     map.texel = f.side / float(request.size);
     const glm::mat4 toUnit(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0, 1);
     map.fromWorld = toUnit * clip;
-    if (m_drawn == print.value) return map;
+    const bool redrawResting = m_resting.drawn != resting.value, anyMoving = !casters[1].empty();
+    const bool redrawMoving = anyMoving && m_moving.drawn != moving.value;
 
-    graph::Pass& pass = graph.pass("shadow", m_solid).read(graph.upload("shadow items", m_items.data(), m_items.size() * sizeof(m_items[0])));
-    if (posed.now) pass.use(posed.now, graph::Access::vertex);
-    pass.depth(map.image, 0.0f).record([this, posed, &materials](const graph::PassContext& c) {
-        const gpu::Api& vk = c.device.vk();
-        recordDraws(c.cmd, vk, m_solidDraws, posed.buffers, kPosition, false, nullptr);
-        if (m_maskedDraws.empty()) return;
-        m_masked.refresh();
-        vk.CmdBindPipeline(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_masked.pipeline());
-        recordDraws(c.cmd, vk, m_maskedDraws, posed.buffers, kPosition | kCoords, false, [&](const ModelGpu& model, uint32_t material) {
-            const VkDescriptorSet set = materials.get(model, material, m_masked);
-            vk.CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_masked.layout(), 1, 1, &set, 0, nullptr);
-        });
-    });
-    m_drawn = print.value;
+    m_items.clear();
+    if (redrawResting) collect(m_resting, std::move(casters[0]), clip);
+    if (redrawMoving) collect(m_moving, std::move(casters[1]), clip);
+    if (m_items.empty()) m_items.push_back({});
+    graph::BufferId items;
+    if (redrawResting || redrawMoving) items = graph.upload("shadow items", m_items.data(), m_items.size() * sizeof(m_items[0]));
+
+    map.image = import(graph, m_resting, "shadow at rest");
+    if (redrawResting) draw(graph, "shadow.rest", m_resting, map.image, 0.0f, items, posed, materials);
+    m_resting.drawn = resting.value;
+    if (!anyMoving) return map;
+
+    const graph::ImageId rest = map.image;
+    map.image = import(graph, m_moving, "shadow map");
+    if (redrawMoving) {
+        const uint32_t size = request.size;
+        graph.pass("shadow.copy").use(rest, graph::Access::transferRead).use(map.image, graph::Access::transferWrite, true)
+            .record([rest, to = map.image, size](const graph::PassContext& c) {
+                const VkImageSubresourceLayers depth{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+                const VkImageCopy region{depth, {}, depth, {}, {size, size, 1}};
+                c.device.vk().CmdCopyImage(c.cmd, c.image(rest), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(to), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+            });
+        draw(graph, "shadow", m_moving, map.image, std::nullopt, items, posed, materials);
+    }
+    m_moving.drawn = moving.value;
     return map;
 }
 

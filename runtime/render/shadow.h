@@ -1,4 +1,5 @@
-// The sun's shadow map: one square of reversed depth, drawn again only when something that casts has changed.
+// The sun's shadow map: one square of reversed depth. What has been at rest for a while is drawn once and kept; what moves
+// is drawn over a copy of that.
 #pragma once
 
 #include "graph/graph.h"
@@ -29,11 +30,20 @@ public:
     Map add(graph::Graph& graph, const ShadowRequest& request, const Deform::Posed& posed, Materials& materials);
 
 private:
+    // One of the two maps: things at rest, and those with the moving ones on top.
+    struct Layer {
+        gpu::Image image;
+        uint64_t drawn = 0;  // fingerprint of what it shows; 0: nothing yet
+        std::vector<Draw> solid, masked;
+    };
+    void collect(Layer& layer, std::vector<const Drawable*> casters, const glm::mat4& clip);
+    graph::ImageId import(graph::Graph& graph, const Layer& layer, const char* name);
+    void draw(graph::Graph& graph, const char* name, Layer& layer, graph::ImageId target, std::optional<float> clear, graph::BufferId items,
+              const Deform::Posed& posed, Materials& materials);
+
     gpu::Device* m_device = nullptr;
     gpu::Program m_solid, m_masked;
-    gpu::Image m_image;
-    uint64_t m_drawn = 0;  // fingerprint of what the map shows; 0: nothing yet
-    std::vector<Draw> m_solidDraws, m_maskedDraws;
+    Layer m_resting, m_moving;
     std::vector<shared::ShadowItem> m_items;
 };
 

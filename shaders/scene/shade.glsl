@@ -15,13 +15,13 @@ struct Surface {
     float visibility; // ambient light that arrives, 1: all
 };
 
-// What is seen in a direction where nothing is: a gradient over the two hemispheres' radiance.
+// What is seen in a direction where nothing is: a pale horizon between the two hemispheres' radiance.
 vec3 skyRadiance(LightingBlock light, vec3 direction) {
     float up = dot(direction, light.up.xyz);
-    float rise = sqrt(clamp(up, 0.0, 1.0));
-    vec3 above = light.sky.rgb * mix(vec3(1.15, 1.10, 1.04), vec3(0.55, 0.75, 1.02), rise);
-    vec3 below = light.ground.rgb * mix(1.05, 0.75, clamp(-up * 1.5, 0.0, 1.0));
-    return mix(below, above, smoothstep(-0.06, 0.03, up));
+    vec3 horizon = light.sky.rgb * vec3(1.08, 1.04, 0.98);
+    vec3 above = mix(horizon, light.sky.rgb * vec3(0.36, 0.56, 0.90), sqrt(clamp(up, 0.0, 1.0)) * clamp(up * 4.0, 0.0, 1.0));
+    vec3 below = mix(horizon, light.ground.rgb, sqrt(clamp(-up * 1.6, 0.0, 1.0)));
+    return up >= 0.0 ? above : below;
 }
 
 vec3 hemisphere(LightingBlock light, vec3 normal) {
@@ -61,7 +61,6 @@ vec3 sunReflection(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float roughnes
 // Part of the sun that arrives: 3x3 texels, bilinear in between, by four gathers.
 float sunlight(LightingBlock light, sampler2DShadow shadow, vec3 position, vec3 geometric) {
     float facing = dot(geometric, light.toSun.xyz);
-    if (facing <= 0.0) return 0.0;
     // A step along the normal that covers what a texel's filter width hides at this slope.
     float slope = sqrt(max(1.0 - facing * facing, 0.0));
     vec3 lifted = position + geometric * (light.toSun.w * (0.35 + 1.65 * slope));
