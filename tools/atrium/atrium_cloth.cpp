@@ -2,7 +2,7 @@
 #include "meshkit/shapes.h"
 
 #include <cmath>
-#include <glm/gtc/constants.h>
+#include <glm/gtc/constants.hpp>
 
 namespace obscura::atrium {
 

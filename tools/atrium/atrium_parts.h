@@ -3,7 +3,7 @@
 #include "atrium/atrium_layout.h"
 #include "meshkit/mesh.h"
 
-#include <glm/glm.h>
+#include <glm/glm.hpp>
 
 namespace obscura::atrium {
 

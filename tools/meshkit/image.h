@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <glm/glm.h>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace obscura::kit {

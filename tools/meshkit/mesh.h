@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <glm/glm.h>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace obscura::kit {

@@ -1,7 +1,7 @@
 #include "meshkit/pose.h"
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace obscura::kit {
 

@@ -4,7 +4,7 @@
 #include "meshkit/mesh.h"
 
 #include <functional>
-#include <glm/gtc/quaternion.h>
+#include <glm/gtc/quaternion.hpp>
 #include <string>
 #include <vector>
 

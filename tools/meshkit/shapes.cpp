@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.h>
-#include <glm/gtc/matrix_transform.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace obscura::kit {
 

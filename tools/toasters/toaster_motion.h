@@ -4,7 +4,7 @@
 #include "toasters/toaster_script.h"
 
 #include <array>
-#include <glm/gtc/quaternion.h>
+#include <glm/gtc/quaternion.hpp>
 #include <vector>
 
 namespace obscura::toasters {

@@ -6,7 +6,7 @@
 
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.h>
+#include <glm/gtc/constants.hpp>
 
 namespace obscura::toasters {
 
