@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdio>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -63,7 +64,8 @@ Engine::Engine(const Options& options, app::Window* window) : m_verbose(options.
     const double pipelinesBegun = app::now();
     m_shaders.add(ao::shaders());
     m_shaders.add(render::shaders());
-    const fs::path sources = fs::path(OBSCURA_SOURCE_DIR) / "shaders";
+    const char* named = std::getenv("OBSCURA_SHADERS");
+    const fs::path sources = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / "shaders";
     if (fs::is_directory(sources, ignored)) {
         m_shaders.watch(sources, gpu::compileShader);
         m_reloads = true;

@@ -98,7 +98,13 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     CLI::App cli{"Obscura: walk through a scene and switch its ambient-obscurance method while it moves.", "obscura"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
-    cli.footer(keyPage(true));
+    cli.footer(keyPage(true) +
+               "\nEnvironment:\n"
+               "  OBSCURA_CONTENT      another folder of scenes, looked in after content/\n"
+               "  OBSCURA_SHADERS      the shaders folder that is watched for edits\n"
+               "  OBSCURA_DEVICE       what --device names, where that is not given\n"
+               "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
+               "\nExit codes: 0 done, 1 the machine could not do it, 2 bad input, 3 the validation layer complained\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     std::string method, preset, falloff, view = "final", size, camera, eye, target;
     std::vector<std::string> assignments;

@@ -43,6 +43,7 @@ public:
 
 private:
     void drawFrame();
+    void reload();
     void takeScreenshot(graph::Graph& graph, graph::ImageId picture, fs::path file, bool last);
     void makeOverlay(VkFormat format);
     const Options& m_options;
@@ -51,6 +52,7 @@ private:
     Engine& m_engine;
     Session m_session;
     std::unique_ptr<app::Overlay> m_overlay;
+    std::vector<std::string> m_shaderErrors;  // as last printed
     uint64_t m_shown = 0;
     bool m_overlayTried = false;
     bool m_idle = false;      // the last round drew nothing
@@ -110,6 +112,18 @@ void Game::drawFrame() {
     if (last) m_window.close();
 }
 
+void Game::reload() {
+    if (m_engine.shaders().poll()) {
+        m_session.say("shaders reloaded");
+        fmt::print("shaders reloaded\n");
+    }
+    std::vector<std::string> errors = m_engine.shaders().errors();
+    if (errors == m_shaderErrors) return;
+    m_shaderErrors = std::move(errors);
+    for (const std::string& error : m_shaderErrors) fmt::print("shader error: {}\n", error);
+    std::fflush(stdout);
+}
+
 void Game::run() {
     double lastReload = 0.0;
     m_lastFrame = app::now();
@@ -131,7 +145,7 @@ void Game::run() {
         m_session.advance(m_window, float(since * 1e-3), typing);
         if (m_engine.reloads() && begun - lastReload > kReloadEvery) {
             lastReload = begun;
-            if (m_engine.shaders().poll()) m_session.say("shaders reloaded");
+            reload();
         }
         const bool wasIdle = m_idle;
         drawFrame();
