@@ -149,8 +149,10 @@ Picture readExr(const std::filesystem::path& file, std::initializer_list<std::st
     checkBlocks(file, bytes, header.exr, int(height));
 
     Image image;
-    if (LoadEXRImageFromMemory(&image.exr, &header.exr, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS)
+    if (LoadEXRImageFromMemory(&image.exr, &header.exr, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+        InitEXRImage(&image.exr);  // tinyexr has freed its planes already and left the pointers
         fail(file, fmt::format("is damaged or truncated ({}); write it again", takeMessage(message)));
+    }
     if (image.exr.width != width || image.exr.height != height || !image.exr.images) fail(file, "is damaged; write it again");
 
     Picture picture;

@@ -45,19 +45,26 @@ float march(vec3 origin, vec3 direction) {
     ivec2 size = ivec2(view.size);
 
     float enterT = 0.0, enterD = d0;
+    vec2 before = vec2(0.0, -1.0);  // in the middle of the texel before: t, metres behind it
+    bool first = true;
     while (all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size))) {
         float s = min(min(next.x, next.y), 1.0);
         float leaveT = t1 * s * w0 / ((1.0 - s) * w1 + s * w0);
         float leaveD = d0 + slope * leaveT;
         float z = imageLoad(depth, texel).x;
-        z += c.tolerance * (perspective ? z : 1.0);
-        if (max(enterD, leaveD) > z && min(enterD, leaveD) < z + c.thickness && !isSky(view, z)) {
-            // Already behind (within the thickness) where it enters the texel, or crossing front or back inside it.
-            if (enterD > z && enterD < z + c.thickness) return enterT;
-            float face = enterD <= z ? z : z + c.thickness;
-            return clamp((face - d0) / slope, enterT, leaveT);
+        float front = z + c.tolerance * (perspective ? z : 1.0), back = front + c.thickness;
+        vec2 here = vec2(enterT + leaveT, enterD + leaveD) * 0.5 - vec2(0.0, z);
+        if (max(enterD, leaveD) > front && min(enterD, leaveD) < back && !isSky(view, z)) {
+            if (enterD >= back) return (back - d0) / slope;              // from behind
+            if (enterD > front + 2.0 * (front - z)) return enterT;       // past a silhouette
+            // The ray has gone through a surface between the texels' centres, or through one that it was within the
+            // tolerance of for a texel or two: where the line through both says.
+            float crossing = first || here.y <= before.y ? enterT : mix(before.x, here.x, before.y / (before.y - here.y));
+            return clamp(crossing, max(before.x - 2.0 * (here.x - before.x), 0.0), leaveT);
         }
         if (s >= 1.0) break;
+        first = false;
+        before = here;
         enterT = leaveT;
         enterD = leaveD;
         if (next.x < next.y) {
