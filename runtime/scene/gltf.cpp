@@ -33,8 +33,12 @@ std::shared_ptr<const Model> load(gltf::Context& context, gltf::Bytes bytes, con
         model->hash = context.hash;
         model->warnings = std::move(context.warnings);
         return model;
+    } catch (const Error&) {
+        throw;
     } catch (const std::bad_alloc&) {
         context.fail("", "needs more memory than there is");
+    } catch (const std::exception& error) {  // of the libraries behind the stages
+        context.fail("", fmt::format("cannot be read: {}", error.what()));
     }
 }
 

@@ -2,6 +2,7 @@
 // [KHR_draco_mesh_compression].
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include <draco/compression/decode.h>
 #include <fmt/format.h>
@@ -19,6 +20,12 @@ size_t wholeOf(const tinygltf::Value& object, const char* key) {
 
 std::string textOf(const tinygltf::Value& object, const char* key) {
     return object.Has(key) ? object.Get(key).Get<std::string>() : std::string();
+}
+
+double threadSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
 Bytes unpackView(Context& context, const Asset& asset, const tinygltf::Value& packed, const std::string& pointer) {
@@ -77,7 +84,12 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(view.data()), view.size());
     draco::Decoder decoder;
+    const double start = threadSeconds();
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    // A damaged stream can make Draco 1.5 decode two thousand million texture orientations, seconds of work nobody can
+    // interrupt. Honest data is decoded a hundred times faster than this; whoever exceeds it once gets no second turn.
+    if (threadSeconds() - start > 1.0 + 20e-6 * double(view.size()))
+        context.fail(where, "the Draco data is damaged (it takes too long); compress the model again");
     if (!decoded.ok()) context.fail(where, fmt::format("the Draco data is damaged ({}); compress the model again", decoded.status().error_msg()));
     const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <memory>
+#include <system_error>
 #include <thread>
 
 #include <fmt/format.h>
@@ -39,6 +41,24 @@ namespace {
 constexpr size_t kScratch = size_t(1) << 20;
 constexpr int kWidest = 16384;  // pixels; what graphics devices take at most
 
+// Fills an image whose size is known. Returns what went wrong, empty when nothing did; nothing may be thrown from threads.
+std::string decode(const Bytes& bytes, Image& image) {
+    int width = 0, height = 0, channels = 0;
+    t_largest = size_t(image.width) * image.height * 8 + bytes.size() * 2 + kScratch;
+    const std::unique_ptr<uint8_t, void (*)(void*)> pixels{
+        stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4), std::free};
+    if (!pixels || uint32_t(width) != image.width || uint32_t(height) != image.height) {
+        const char* reason = stbi_failure_reason();
+        return fmt::format("cannot be decoded ({}); save the image again", reason != nullptr ? reason : "damaged");
+    }
+    try {
+        image.rgba.assign(pixels.get(), pixels.get() + size_t(width) * size_t(height) * 4);
+    } catch (const std::bad_alloc&) {
+        return "needs more memory than there is";
+    }
+    return {};
+}
+
 Image white(const std::string& name, bool srgb) { return {name, 1, 1, srgb, {255, 255, 255, 255}}; }
 
 }  // namespace
@@ -70,20 +90,16 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
     const auto work = [&] {
         for (size_t k = next++; k < decodes.size(); k = next++) {
             const size_t i = decodes[k];
-            const auto& bytes = asset.gltf->images[size_t(uses[i].source)].image;
-            int width = 0, height = 0, channels = 0;
-            t_largest = size_t(images[i].width) * images[i].height * 8 + bytes.size() * 2 + kScratch;
-            uint8_t* pixels = stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4);
-            if (pixels == nullptr || uint32_t(width) != images[i].width || uint32_t(height) != images[i].height)
-                faults[i] = fmt::format("cannot be decoded ({}); save the image again", stbi_failure_reason() ? stbi_failure_reason() : "damaged");
-            else
-                images[i].rgba.assign(pixels, pixels + size_t(width) * size_t(height) * 4);
-            stbi_image_free(pixels);
+            faults[i] = decode(asset.gltf->images[size_t(uses[i].source)].image, images[i]);
         }
     };
     std::vector<std::thread> threads;
     const size_t count = std::min<size_t>(decodes.size(), std::max(1u, std::thread::hardware_concurrency()));
-    for (size_t i = 1; i < count; ++i) threads.emplace_back(work);
+    try {
+        for (size_t i = 1; i < count; ++i) threads.emplace_back(work);
+    } catch (const std::system_error&) {
+        // No more threads to be had: those there are do the work.
+    }
     work();
     for (std::thread& thread : threads) thread.join();
 
