@@ -114,7 +114,7 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
         app::Progress progress("uploading " + stage.info.name, 1);
         expect(m_renderer->load(stage.world), "uploading the scene");
     }
-    started.scene = (app::now() - begun) * 1e-3;
+    started.scene = stage.loadSeconds + (app::now() - begun) * 1e-3;
 
     begun = app::now();
     std::vector<const ao::MethodInfo*> methods;

@@ -64,10 +64,12 @@ void drawTimes(const Session& session) {
     static std::string chosen;  // the pass whose history is shown; none: the whole frame's
     const app::Statistics& times = session.statistics;
     const double frame = times.frame().median();
+    ImGui::PushTextWrapPos(0.0f);
     ImGui::TextUnformatted(fmt::format("frame {:.2f} ms ({:.0f}/s)  gpu {:.2f} ms  cpu {:.2f} ms", frame, frame > 0.0 ? 1000.0 / frame : 0.0,
                                        times.gpu().median(), times.cpu().median()).c_str());
     if (!session.switches.values.empty())
         ImGui::TextUnformatted(fmt::format("worst frame at a switch {:.1f} ms, median {:.1f} ms", session.switches.worst(), session.steady.median()).c_str());
+    ImGui::PopTextWrapPos();
     const auto& passes = times.passes();
     const auto pass = std::find_if(passes.begin(), passes.end(), [](const app::Series& s) { return s.name == chosen; });
     const app::Series& shown = pass == passes.end() ? times.gpu() : *pass;

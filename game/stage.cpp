@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -54,6 +55,7 @@ scene::CameraPath orbit(const scene::Bounds& bounds) {
 }  // namespace
 
 Stage::Stage(const std::string& scene) {
+    const auto begun = std::chrono::steady_clock::now();
     const std::vector<SceneInfo> manifest = loadManifest();
     const auto named = std::find_if(manifest.begin(), manifest.end(), [&](const SceneInfo& s) { return s.name == scene; });
     std::error_code ignored;
@@ -68,6 +70,7 @@ Stage::Stage(const std::string& scene) {
         throw Complaint(looksLikePath ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", scene, fmt::join(names, ", "))
                                       : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", scene, app::choices(scene, names)));
     }
+    loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
 void Stage::loadNamed(const SceneInfo& named) {
@@ -145,34 +148,45 @@ void Stage::placeGroup(const ToyGroup& group) {
     }
 }
 
-bool Stage::dropToy(const glm::vec3& at, float turn, float time) {
+// The place itself, or the first one along a sunflower's spiral around it where nothing was dropped.
+glm::vec3 Stage::freePlace(const glm::vec3& at) const {
+    glm::vec3 place = at;
+    for (size_t i = 0; i < 4 * kMostToys; ++i) {
+        const float angle = 2.3999632f * float(i), radius = 0.4f * info.toyScale * std::sqrt(float(i));
+        place = at + radius * glm::vec3(std::cos(angle), 0.0f, std::sin(angle));
+        place.x = std::clamp(place.x, info.walkMin.x, info.walkMax.x);
+        place.z = std::clamp(place.z, info.walkMin.y, info.walkMax.y);
+        place.y = info.floor;
+        if (std::none_of(m_dropped.begin(), m_dropped.end(), [&](const Dropped& d) { return glm::distance(d.at, place) < 0.5f * info.toyScale; })) break;
+    }
+    return place;
+}
+
+bool Stage::dropToy(const glm::vec3& wanted, float turn, float time) {
     if (!m_toys || m_dropped.size() >= kMostToys) return false;
     // Each next toy is another one, at another moment of its walk, so that a crowd does not march in step.
+    const glm::vec3 at = freePlace(wanted);
     const Toy& toy = m_toyKinds[m_dropped.size() % m_toyKinds.size()];
     const float offset = 1.37f * float(m_dropped.size());
     const scene::Pose pose = scene::evaluate(*m_toys, 0, time + offset);
     const glm::vec3 stands(pose.world[size_t(toy.feet)][3]);
-    glm::mat4 placement = glm::translate(glm::mat4(1.0f), glm::vec3(at.x, info.floor, at.z));
+    glm::mat4 placement = glm::translate(glm::mat4(1.0f), at);
     placement = glm::rotate(placement, turn, glm::vec3(0, 1, 0));
     placement = glm::scale(placement, glm::vec3(info.toyScale));
     placement = glm::translate(placement, glm::vec3(-stands.x, -toy.ground, -stands.z));
-    m_dropped.push_back(world.add({.model = m_toys, .placement = placement, .timeOffset = offset, .root = toy.root}));
+    m_dropped.push_back({world.add({.model = m_toys, .placement = placement, .timeOffset = offset, .root = toy.root}), at});
     return true;
 }
 
 void Stage::dropToys(uint32_t count, float time) {
     const glm::vec3 middle = floorAhead(startCamera());
-    for (uint32_t i = 0; i < count; ++i) {
-        // A sunflower's spiral spreads any number evenly.
-        const float angle = 2.3999632f * float(i), radius = 0.55f * info.toyScale * std::sqrt(float(i));
-        const glm::vec3 at = middle + radius * glm::vec3(std::cos(angle), 0.0f, std::sin(angle));
-        if (!dropToy({std::clamp(at.x, info.walkMin.x, info.walkMax.x), at.y, std::clamp(at.z, info.walkMin.y, info.walkMax.y)}, angle, time)) return;
-    }
+    for (uint32_t i = 0; i < count; ++i)
+        if (!dropToy(middle, 2.3999632f * float(i), time)) return;
 }
 
 void Stage::removeToy() {
     if (m_dropped.empty()) return;
-    world.remove(m_dropped.back());
+    world.remove(m_dropped.back().id);
     m_dropped.pop_back();
 }
 
@@ -182,7 +196,7 @@ void Stage::clearToys() {
 
 glm::vec3 Stage::floorAhead(const scene::Camera& camera) const {
     const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const float ahead = std::clamp(bounds.radius() * 0.5f, 1.0f, 6.0f), farthest = 4.0f * ahead;
+    const float ahead = std::clamp(bounds.radius() * 0.5f, 1.0f, 6.0f), farthest = 1.5f * ahead;
     const float down = camera.eye.y - info.floor;
     float distance = forward.y < -1e-3f && down > 0.0f ? down / -forward.y : ahead;
     distance = std::min(distance, farthest);

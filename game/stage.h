@@ -25,16 +25,17 @@ public:
     scene::Bounds bounds;                 // at time 0, of everything
     std::vector<std::string> remarks;     // one line each, for the terminal
     std::string file;                     // what was loaded
+    double loadSeconds = 0.0;             // that this took
 
     scene::Camera startCamera() const;
     // The camera that an option asks for, at a time.
     scene::Camera camera(const CameraChoice& choice, float time);
     bool moves(const CameraChoice& choice) const;  // does it change over time by itself?
 
-    // Drops a toy that stands at `at` (its height is the floor's) at this time and walks on from there. False at the limit
-    // or without toasters.glb.
+    // Drops a toy that stands at `at` (its height is the floor's), or beside those dropped there before, at this time and
+    // walks on from there. False at the limit or without toasters.glb.
     bool dropToy(const glm::vec3& at, float turn, float time);
-    void dropToys(uint32_t count, float time);  // spread around the place the first camera looks at
+    void dropToys(uint32_t count, float time);  // around the place the first camera looks at
     void removeToy();
     void clearToys();
     size_t toys() const { return m_dropped.size(); }
@@ -48,6 +49,7 @@ private:
     void loadFile(const std::filesystem::path& file);
     void loadToys(bool wanted);
     void placeGroup(const ToyGroup& group);
+    glm::vec3 freePlace(const glm::vec3& at) const;
     std::shared_ptr<const scene::Model> m_toys;
     // A toy of m_toys: the node whose subtree it is, the node that carries it along (between its feet), and the lowest
     // height at which that ever is.
@@ -56,7 +58,11 @@ private:
         float ground;
     };
     std::vector<Toy> m_toyKinds;
-    std::vector<uint32_t> m_dropped;  // instance ids
+    struct Dropped {
+        uint32_t id;
+        glm::vec3 at;
+    };
+    std::vector<Dropped> m_dropped;
     std::shared_ptr<scene::CameraPath> m_chosenPath;  // of --camera path:
 };
 

@@ -53,6 +53,7 @@ private:
     Session m_session;
     std::unique_ptr<app::Overlay> m_overlay;
     std::vector<std::string> m_shaderErrors;  // as last printed
+    uint64_t m_firstFrame = 0;  // the warm-up's are not for the plots
     uint64_t m_shown = 0;
     bool m_overlayTried = false;
     bool m_idle = false;      // the last round drew nothing
@@ -86,7 +87,7 @@ void Game::drawFrame() {
     app::Frames& frames = m_engine.frames();
     m_engine.expect(frames.begin(graph), "waiting for a frame");
     m_engine.capture().collect();
-    m_session.statistics.add(graph.timings());
+    if (graph.timings().frame >= m_firstFrame) m_session.statistics.add(graph.timings());
     m_idle = !m_presenter.acquire(frames.slot());
     if (m_idle) return m_engine.expect(frames.end(graph), "idling");
 
@@ -126,6 +127,7 @@ void Game::reload() {
 
 void Game::run() {
     double lastReload = 0.0;
+    m_firstFrame = m_engine.device().frame() + 1;
     m_lastFrame = app::now();
     while (!m_window.closing()) {
         if (m_idle) m_window.waitEvents(kIdleWait);
