@@ -21,7 +21,7 @@ struct Renderer::Impl {
 
     gpu::Device& device;
     ao::Library library;
-    std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;
+    std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;  // null: could not be uploaded, said once
     uint32_t modelSerial = 0;
     Actors actors;
     Materials materials;
@@ -105,17 +105,22 @@ Status Renderer::Impl::load(const scene::World& world) {
         const bool used = std::any_of(world.instances().begin(), world.instances().end(),
                                       [&](const scene::Instance& instance) { return instance.model.get() == it->first; });
         if (used) { ++it; continue; }
-        materials.forget(*it->second);
-        deform.forget(*it->second);
+        if (it->second) {
+            materials.forget(*it->second);
+            deform.forget(*it->second);
+        }
         it = models.erase(it);
     }
+    Status worst = Status::ok;
     for (const scene::Instance& instance : world.instances()) {
         if (!instance.model || models.count(instance.model.get())) continue;
         auto made = std::make_unique<ModelGpu>();
         const Status status = ModelGpu::create(device, instance.model, *made);
         if (status != Status::ok) {
-            device.log(gpu::Severity::error, "render: cannot upload " + instance.model->name + ": " + gpu::name(status));
-            return status;
+            device.log(gpu::Severity::error, "render: cannot upload " + instance.model->name + ", it is left out: " + gpu::name(status));
+            models.emplace(instance.model.get(), nullptr);
+            worst = status;
+            continue;
         }
         for (const scene::Material& material : instance.model->materials) {
             if (material.alphaMode == scene::AlphaMode::blend) lighting.prepare(material);
@@ -124,7 +129,7 @@ Status Renderer::Impl::load(const scene::World& world) {
         made->serial = modelSerial++;
         models.emplace(instance.model.get(), std::move(made));
     }
-    return Status::ok;
+    return worst;
 }
 
 CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const {
@@ -159,6 +164,7 @@ void Renderer::Impl::count(const scene::World& world) {
     facts.draws = draws.draws();
     facts.instances = world.instances().size();
     for (const auto& [source, model] : models) {
+        if (!model) continue;
         facts.textureBytes += model->textureBytes;
         facts.geometryBytes += model->geometryBytes;
     }

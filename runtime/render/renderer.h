@@ -69,7 +69,7 @@ public:
     ~Renderer();
 
     // Uploads the models of a world that are not on the GPU yet and drops those no longer used. add() does so as well;
-    // call it first where a hitch would show. Progress is told as done/total models.
+    // call it first where a hitch would show. A model that cannot be uploaded is logged and left out of the picture.
     gpu::Status load(const scene::World& world);
 
     // Adds the frame's passes. Remembers poses and camera for the next frame's motion vectors.

@@ -11,8 +11,7 @@ constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-norm
 // How to show an image of which only the format is known.
 uint32_t modeOf(VkFormat format, const std::string& name) {
     switch (format) {
-        case VK_FORMAT_D32_SFLOAT:
-        case VK_FORMAT_D16_UNORM: return shared::kViewDeviceDepth;
+        case VK_FORMAT_D32_SFLOAT: return name.find("shadow") != std::string::npos ? shared::kViewGrey : shared::kViewDeviceDepth;
         case VK_FORMAT_R32_UINT: return name.find("normal") != std::string::npos ? shared::kViewNormal : shared::kViewInteger;
         case VK_FORMAT_R8_UINT:
         case VK_FORMAT_R16_UINT:
