@@ -1,6 +1,7 @@
 // Both references against stored ones made by other means. The folder is found beside the project or named by
 // OBSCURA_ORACLE; without it these tests are skipped.
 #include <cstdlib>
+#include <ctime>
 
 #include "gpu/test_device.h"
 #include "truth/screen_reference.h"
@@ -80,6 +81,43 @@ TEST(WorldOracle, sphere) { expectWorld("sphere", folder("OBSCURA_ORACLE", "orac
 TEST(WorldOracle, atrium) { expectWorld("atrium", folder("OBSCURA_ORACLE", "oracle") / "atrium.glb", 4); }
 TEST(WorldOracle, sponza) { expectWorld("sponza_a", folder("OBSCURA_CONTENT", "content") / "sponza/512/Sponza.gltf", 9); }
 TEST(WorldOracle, dragon) { expectWorld("dragon", folder("OBSCURA_CONTENT", "content") / "scenes/dragon.glb", 8); }
+
+// Not a test but a measurement: obscura_truth_tests --gtest_also_run_disabled_tests --gtest_filter='*raysPerSecond'
+TEST(WorldOracle, DISABLED_raysPerSecond) {
+    const Stored stored("sponza_a", "world");
+    const fs::path file = folder("OBSCURA_CONTENT", "content") / "sponza/512/Sponza.gltf";
+    if (!fs::exists(file)) test::skip("no " + file.string());
+    scene::World world;
+    scene::Instance instance;
+    instance.model = scene::loadGltf(file);
+    world.add(instance);
+    const auto posed = scene::pose(world, 0.0f);
+    const auto processorSeconds = [] {
+        timespec time{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+        return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+    };
+    for (const bool skipMasked : {true, false}) {
+        const WorldReference reference(posed, {.skipMasked = skipMasked});
+        printf("%zu triangles, tree in %.2f s, masked primitives %s\n", reference.triangles(), reference.buildSeconds(), skipMasked ? "left out" : "in");
+        for (const char* falloff : {"constant:2", "quadratic:2", "exponential:1"})
+            for (const bool packets : {false, true})
+                for (const uint32_t threads : {1u, 2u}) {
+                    WorldOptions options;
+                    options.minRays = options.maxRays = 256;
+                    options.targetError = 0.0f;
+                    options.stride = 6;
+                    options.threads = threads;
+                    options.packets = packets;
+                    const std::vector falloffs{rayFalloff(falloff)};
+                    const double start = processorSeconds();
+                    const Reference result = reference.trace(stored.frame, falloffs, options);
+                    const double used = processorSeconds() - start;
+                    printf("  %-14s %-7s %u threads: %5.2f million rays a second, %5.2f a processor second\n", falloff, packets ? "packets" : "single",
+                           threads, 1e-6 * double(result.totalRays) / result.seconds, 1e-6 * double(result.totalRays) / used);
+                }
+    }
+}
 
 class ScreenOracle : public test::GpuTest {
 protected:
