@@ -38,6 +38,7 @@ Options runOf(const Baseline& baseline, Options options) {
     options.rays = {baseline.rays, 0.0f, baseline.seed, options.rays.cache};
     options.frames = 1;
     options.warmUp = 0;
+    options.errorsOnly = true;
     expectScenes(options);
     return options;
 }

@@ -20,7 +20,7 @@ struct Cell {
 struct Baseline {
     glm::uvec2 size{240, 135};
     float guard = 0.1f;
-    uint32_t rays = 128, seed = 1;
+    uint32_t rays = 64, seed = 1;
     float relative = 0.03f, absolute = 0.0005f;  // a cell fails when it is worse by more than both
     std::vector<std::string> scenes, cameras, falloffs, references;
     std::map<Cell, float> cells;                 // eA

@@ -1,6 +1,7 @@
 #include "measure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -43,6 +44,16 @@ Drawn draw(Machine& machine, Shot& shot, const Options& options, size_t candidat
     return drawn;
 }
 
+// The one number a gate needs, in a hundredth of the time.
+std::vector<truth::RegionMetrics> meanError(const truth::Plane& visibility, const truth::Plane& reference, const truth::Mask& valid) {
+    truth::Metrics metrics;
+    double sum = 0.0;
+    for (size_t i = 0; i < valid.size(); ++i)
+        if (valid[i]) sum += std::fabs(std::clamp(visibility.values[i], 0.0f, 1.0f) - std::clamp(reference.values[i], 0.0f, 1.0f)), ++metrics.pixels;
+    metrics.raw.eA = metrics.pixels ? float(sum / double(metrics.pixels)) : 0.0f;
+    return {{truth::Region::whole, metrics}};
+}
+
 }  // namespace
 
 ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
@@ -75,12 +86,14 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
 
     begun = app::now();
     const truth::Regions regions = truth::regionsOf(shot.frame);
+    const truth::Mask valid = shot.frame.visibleMask();
     app::Progress progress("comparing", result.references.size());
     for (size_t r = 0; r < result.references.size(); ++r) {
         progress.at(r);
         for (size_t d = 0; d < result.drawn.size(); ++d) {
             if (options.falloffs[result.drawn[d].falloff].text != result.references[r].falloff) continue;
-            result.rows.push_back({d, r, truth::compare(result.drawn[d].visibility, result.references[r].visibility, regions)});
+            const truth::Plane &visibility = result.drawn[d].visibility, &reference = result.references[r].visibility;
+            result.rows.push_back({d, r, options.errorsOnly ? meanError(visibility, reference, valid) : truth::compare(visibility, reference, regions)});
         }
     }
     result.seconds.metrics = (app::now() - begun) * 1e-3;

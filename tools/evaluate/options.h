@@ -56,6 +56,7 @@ struct Options {
     ReferenceChoice reference;
     RayChoice rays;
     uint32_t frames = 12, warmUp = 3;
+    bool errorsOnly = false;     // eA alone, no regions or perceptual metrics: what a gate compares
     // What is written.
     std::filesystem::path json, out, page, captureOut, baseline;
     // Device.

@@ -207,30 +207,46 @@ function passesChart(rows) {
     root.append(svg("text", {x: x(at) + 6, y: y + 16}, milliseconds(row.milliseconds.all)));
   });
 }
+// A place for a label near its dot that covers neither another label nor a dot; far ones get a line to theirs.
+function place(dot, width, taken, dots, bounds) {
+  const near = [[9, 4], [-9 - width, 4], [-width / 2, -10], [-width / 2, 20]];
+  const far = [1, 2, 3, 4, 5, 6].flatMap(k => [[12, 4 - 14 * k], [-12 - width, 4 - 14 * k], [12, 4 + 14 * k], [-12 - width, 4 + 14 * k]]);
+  const hits = b => taken.some(t => b.x < t.x + t.width + 4 && t.x < b.x + b.width + 4 && Math.abs(b.y - t.y) < 13)
+    || dots.some(d => d.x > b.x - 5 && d.x < b.x + b.width + 5 && d.y > b.y - 15 && d.y < b.y + 6);
+  for (const [i, [dx, dy]] of [...near, ...far].entries()) {
+    const box = {x: dot.x + dx, y: dot.y + dy, width, far: i >= near.length};
+    if (box.x >= bounds.left && box.x + width <= bounds.right && box.y - 12 >= bounds.top && box.y <= bounds.bottom && !hits(box)) return box;
+  }
+  return null;
+}
 function timeChart(all) {
-  const rows = all.filter(r => r.milliseconds.all > 0);
+  const rows = all.filter(r => r.milliseconds.all > 0 && r.method !== "none");  // the picture without obscurance costs nothing
   if (!rows.length) return element("p", {class: "empty"}, "No times were measured.");
-  const height = 330, left = 54, bottom = height - 40, right = WIDTH - 16, top = 12;
-  const times = rows.map(r => Math.log10(r.milliseconds.all)), low = Math.min(...times) - 0.15, high = Math.max(...times, low + 0.4) + 0.35, most = Math.max(...rows.map(r => r.eA)) * 1.08 || 1;
-  const x = ms => left + (right - left) * (Math.log10(ms) - low) / (high - low), y = e => bottom - (bottom - top) * e / most;
+  const height = 360, bounds = {left: 54, right: WIDTH - 12, top: 14, bottom: height - 40};
+  const times = rows.map(r => Math.log10(r.milliseconds.all)), errors = rows.map(r => r.eA);
+  const low = Math.min(...times) - 0.2, high = Math.max(...times, low + 0.4) + 0.25;
+  const spread = Math.max(Math.max(...errors) - Math.min(...errors), 0.004), least = Math.max(0, Math.min(...errors) - 0.25 * spread), most = Math.max(...errors) + 0.25 * spread;
+  const x = ms => bounds.left + (bounds.right - bounds.left) * (Math.log10(ms) - low) / (high - low), y = e => bounds.bottom - (bounds.bottom - bounds.top) * (e - least) / (most - least);
   const root = svg("svg", {viewBox: `0 0 ${WIDTH} ${height}`, role: "img"});
-  for (const v of axis(most, null, "").ticks) root.append(svg("line", {class: "axis", x1: left, x2: right, y1: y(v), y2: y(v)}), svg("text", {class: "soft", x: left - 6, y: y(v) + 4, "text-anchor": "end"}, String(+v.toPrecision(3))));
+  const step = [1, 2, 5, 10].map(f => f * 10 ** Math.floor(Math.log10((most - least) / 4))).find(s => (most - least) / s <= 6);
+  for (let v = Math.ceil(least / step) * step; v <= most; v += step)
+    root.append(svg("line", {class: "axis", x1: bounds.left, x2: bounds.right, y1: y(v), y2: y(v)}), svg("text", {class: "soft", x: bounds.left - 6, y: y(v) + 4, "text-anchor": "end"}, String(+v.toPrecision(3))));
   for (let e = Math.floor(low); e <= high; ++e) for (const f of [1, 2, 5]) {
     const v = f * 10 ** e;
-    if (Math.log10(v) >= low && Math.log10(v) <= high) root.append(svg("line", {class: "axis", x1: x(v), x2: x(v), y1: top, y2: bottom}), svg("text", {class: "soft", x: x(v), y: bottom + 16, "text-anchor": "middle"}, String(+v.toPrecision(3))));
+    if (Math.log10(v) >= low && Math.log10(v) <= high) root.append(svg("line", {class: "axis", x1: x(v), x2: x(v), y1: bounds.top, y2: bounds.bottom}), svg("text", {class: "soft", x: x(v), y: bounds.bottom + 16, "text-anchor": "middle"}, String(+v.toPrecision(3))));
   }
-  root.append(svg("text", {class: "soft", x: (left + right) / 2, y: height - 6, "text-anchor": "middle"}, "milliseconds (logarithmic)"), svg("text", {class: "soft", x: 4, y: top}, "eA"));
-  // Labels step aside where they would cover one another.
-  const taken = [];
-  for (const row of [...rows].sort((a, b) => a.eA - b.eA)) {
-    const cx = x(row.milliseconds.all), cy = y(row.eA), text = short(row.label, 26), width = text.length * 6.6, flip = cx + 10 + width > right;
-    let ty = cy + 4;
-    const from = flip ? cx - 10 - width : cx + 10;
-    while (taken.some(t => Math.abs(t.y - ty) < 13 && from < t.to && t.from < from + width)) ty -= 13;
-    taken.push({y: ty, from, to: from + width});
-    const dot = svg("circle", {cx, cy, r: row.label === state.right ? 7 : 5, fill: colour(row.method), class: "mark", onclick: () => choose({right: row.label})});
-    dot.append(svg("title", {}, `${row.label}: eA ${fixed(row.eA, 4)}, ${milliseconds(row.milliseconds.all)} ms`));
-    root.append(dot, svg("text", {x: flip ? cx - 10 : cx + 10, y: ty, "text-anchor": flip ? "end" : "start", class: row.label === state.right ? "chosen" : ""}, text));
+  root.append(svg("text", {class: "soft", x: (bounds.left + bounds.right) / 2, y: height - 6, "text-anchor": "middle"}, "milliseconds (logarithmic)"), svg("text", {class: "soft", x: 4, y: bounds.top}, "eA"));
+  const dots = rows.map(row => ({row, x: x(row.milliseconds.all), y: y(row.eA)})), taken = [];
+  for (const dot of [...dots].sort((a, b) => (b.row.label === state.right) - (a.row.label === state.right) || a.x - b.x)) {
+    const {row} = dot, text = short(row.label, 26), box = place(dot, text.length * 6.4, taken, dots, bounds);
+    const mark = svg("circle", {cx: dot.x, cy: dot.y, r: row.label === state.right ? 7 : 5, fill: colour(row.method), class: "mark", onclick: () => choose({right: row.label})});
+    mark.append(svg("title", {}, `${row.label}: eA ${fixed(row.eA, 4)}, ${milliseconds(row.milliseconds.all)} ms`));
+    if (box) {
+      taken.push(box);
+      if (box.far) root.append(svg("line", {class: "axis", x1: dot.x, y1: dot.y, x2: box.x > dot.x ? box.x - 2 : box.x + box.width + 2, y2: box.y - 4}));
+      root.append(svg("text", {x: box.x, y: box.y, textLength: box.width, lengthAdjust: "spacingAndGlyphs", class: row.label === state.right ? "chosen" : ""}, text));
+    }
+    root.append(mark);
   }
   return root;
 }

@@ -1,0 +1,62 @@
+#include "command.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace obscura::evaluate {
+
+namespace fs = std::filesystem;
+
+size_t Ended::errorLines() const { return size_t(std::count(error.begin(), error.end(), '\n')); }
+
+std::string textOf(const fs::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+Ended runTool(const std::string& arguments) {
+    const Scratch scratch;
+    const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", OBSCURA_EVALUATE, arguments, (scratch / "out").string(), (scratch / "error").string());
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(scratch / "out"), textOf(scratch / "error")};
+}
+
+Scratch::Scratch() {
+    static int count = 0;
+    m_folder = fs::temp_directory_path() / fmt::format("obscura-evaluate-test.{}.{}", ::getpid(), count++);
+    fs::create_directories(m_folder);
+}
+
+Scratch::~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(m_folder, ignored);
+}
+
+size_t Scratch::files() const {
+    return size_t(std::distance(fs::recursive_directory_iterator(m_folder), fs::recursive_directory_iterator()));
+}
+
+truth::CapturedFrame cornerFrame() {
+    truth::CapturedFrame frame = truth::emptyFrame({64, 36}, {6, 4}, 1.0471976f, 0.1f);
+    constexpr float kFloor = -1.0f, kWall = -5.0f;  // y of the floor, z of the wall, m
+    for (uint32_t y = 0; y < frame.size.y; ++y)
+        for (uint32_t x = 0; x < frame.size.x; ++x) {
+            const size_t i = frame.index(x, y);
+            frame.depth[i] = 1.0f;
+            const glm::vec3 ray = frame.eyePosition(x, y);  // at 1 m
+            const float toFloor = ray.y < 0.0f ? kFloor / ray.y : 1e9f, toWall = kWall / ray.z;
+            frame.depth[i] = std::min(toFloor, toWall);
+            frame.normals[i] = toFloor < toWall ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+        }
+    return frame;
+}
+
+}  // namespace obscura::evaluate

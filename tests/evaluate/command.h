@@ -1,0 +1,35 @@
+// Runs obscura-evaluate as a user does, and makes small frames to feed it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "truth/captured_frame.h"
+
+namespace obscura::evaluate {
+
+struct Ended {
+    int code = -1;
+    std::string out, error;
+    size_t errorLines() const;
+};
+Ended runTool(const std::string& arguments);
+
+// A folder that goes with its owner.
+class Scratch {
+public:
+    Scratch();
+    ~Scratch();
+    std::filesystem::path operator/(const std::string& name) const { return m_folder / name; }
+    const std::filesystem::path& folder() const { return m_folder; }
+    size_t files() const;
+
+private:
+    std::filesystem::path m_folder;
+};
+
+std::string textOf(const std::filesystem::path& file);
+// A floor and a wall that meet: 64 x 36 px and a guard band of 6 x 4.
+truth::CapturedFrame cornerFrame();
+
+}  // namespace obscura::evaluate

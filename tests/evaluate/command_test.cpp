@@ -1,0 +1,202 @@
+// The tool as a user runs it: frames in, numbers and files out; bad input is one line, exit code 2 and nothing written.
+#include <fstream>
+#include <limits>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+
+namespace obscura::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class OnAFrame : public testing::Test {
+protected:
+    void SetUp() override { truth::writeCapture(m_scratch / "corner", cornerFrame()); }
+    fs::path exr() const { return m_scratch / "corner.capture.exr"; }
+    fs::path camera() const { return m_scratch / "corner.json"; }
+
+    // A broken frame is refused with one line that holds `expected`, and nothing appears.
+    void expectRefused(const std::string& expected, const std::string& more = "") {
+        const size_t before = m_scratch.files();
+        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --json '{}' --out '{}' {}", exr().string(), camera().string(), (m_scratch / "e.json").string(),
+                                                (m_scratch / "out").string(), more));
+        EXPECT_EQ(ended.code, 2) << ended.error;
+        EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
+        EXPECT_NE(ended.error.find(expected), std::string::npos) << ended.error;
+        EXPECT_EQ(ended.out, "");
+        fs::remove(m_scratch / "out");  // an empty folder is no result
+        EXPECT_EQ(m_scratch.files(), before);
+    }
+    void rewrite(const std::function<void(truth::Picture&)>& change) {
+        truth::Picture picture = truth::readExr(exr());
+        change(picture);
+        truth::writeExr(exr(), picture);
+    }
+    json camera_() const { return json::parse(textOf(camera())); }
+    Scratch m_scratch;
+};
+
+TEST_F(OnAFrame, numbersPicturesAndTables) {
+    const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --method hbao --preset all --falloff quadratic:2,exponential:1 --rays 64 --frames 2 --json '{}' --out '{}'",
+                                            exr().string(), camera().string(), (m_scratch / "e.json").string(), (m_scratch / "out").string()));
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json rows = json::parse(textOf(m_scratch / "e.json"));
+    ASSERT_GE(rows.size(), 4u);
+    for (const json& row : rows) {
+        for (const char* key : {"method", "preset", "falloff", "reference", "eA", "e5", "bias", "rmse", "p99", "ssim", "milliseconds"}) EXPECT_TRUE(row.contains(key)) << key;
+        EXPECT_LT(row["eA"], 0.1) << row["preset"];
+        EXPECT_GT(row["ssim"], 0.5);
+        EXPECT_TRUE(row["milliseconds"]["passes"].contains("hbao.horizons"));
+        EXPECT_GE(row["milliseconds"]["all"], row["milliseconds"]["passes"]["hbao.horizons"]);
+    }
+    for (const char* name : {"corner.capture.hbao.default.quadratic_2.visibility.exr", "corner.capture.hbao.default.quadratic_2.visibility.png",
+                             "corner.capture.hbao.default.exponential_1.error.screen.png", "corner.capture.reference.exr", "metrics.json", "metrics.md"})
+        EXPECT_TRUE(fs::exists(m_scratch / "out" / name)) << name;
+
+    // The references it wrote are references it reads, and judge alike.
+    const Ended again = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --channel screen.quadratic_2 --json '{}'", exr().string(), camera().string(),
+                                            (m_scratch / "out/corner.capture.reference.exr").string(), (m_scratch / "again.json").string()));
+    ASSERT_EQ(again.code, 0) << again.error;
+    const json row = json::parse(textOf(m_scratch / "again.json"))[0];
+    EXPECT_NEAR(row["eA"].get<double>(), rows[0]["eA"].get<double>(), 1e-4);
+}
+
+TEST_F(OnAFrame, deviceDepthWorldNormalsAndOtherNamesAreTheSameFrame) {
+    // The same frame as a host would dump it: seen from a camera in the world, reversed device depth, world normals.
+    json camera = camera_();
+    camera["eye"] = {1, 2, 3};
+    camera["target"] = {4, 2, 3};  // looks along +x
+    camera["depth"] = "device";
+    camera["normals"] = "world";
+    truth::CapturedFrame frame = cornerFrame();
+    truth::Picture picture = truth::readExr(exr());
+    for (float& z : picture.channels[size_t(picture.find("Z") - picture.channels.data())].values) z = frame.near / z;
+    const auto channel = [&](const char* name) -> std::vector<float>& { return const_cast<truth::Picture::Channel*>(picture.find(name))->values; };
+    const std::vector<float> eyeZ = channel("N.Z"), eyeX = channel("N.X");
+    for (size_t i = 0; i < eyeZ.size(); ++i) {
+        channel("N.X")[i] = -eyeZ[i];  // the camera's -z is the world's +x
+        channel("N.Z")[i] = eyeX[i];
+    }
+    truth::writeExr(m_scratch / "dump.exr", picture);
+    std::ofstream(m_scratch / "pose.json") << camera.dump();
+    const auto errorOf = [&](const fs::path& image, const fs::path& pose) {
+        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --frames 1 --json '{}'", image.string(), pose.string(), (m_scratch / "e.json").string()));
+        EXPECT_EQ(ended.code, 0) << ended.error;
+        return json::parse(textOf(m_scratch / "e.json"))[0]["eA"].get<double>();
+    };
+    const double plain = errorOf(exr(), this->camera());
+    EXPECT_NEAR(errorOf(m_scratch / "dump.exr", m_scratch / "pose.json"), plain, 0.002);
+}
+
+TEST_F(OnAFrame, missingNormalsAreMadeFromDepth) {
+    rewrite([](truth::Picture& picture) { std::erase_if(picture.channels, [](const auto& c) { return c.name != "Z"; }); });
+    const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --frames 1", exr().string(), camera().string()));
+    EXPECT_EQ(ended.code, 0) << ended.error;
+    EXPECT_NE(ended.out.find("reconstructed"), std::string::npos) << ended.out;
+}
+
+TEST_F(OnAFrame, truncated) {
+    fs::resize_file(exr(), fs::file_size(exr()) / 2);
+    expectRefused("corner.capture.exr");
+}
+TEST_F(OnAFrame, noExrAtAll) {
+    std::ofstream(exr(), std::ios::trunc) << "this is no picture";
+    expectRefused("corner.capture.exr");
+}
+TEST_F(OnAFrame, withoutDepth) {
+    rewrite([](truth::Picture& picture) { std::erase_if(picture.channels, [](const auto& c) { return c.name == "Z"; }); });
+    expectRefused("Z is missing");
+}
+TEST_F(OnAFrame, withHalfItsNormals) {
+    rewrite([](truth::Picture& picture) { std::erase_if(picture.channels, [](const auto& c) { return c.name == "N.Y"; }); });
+    expectRefused("N.Y is missing");
+}
+TEST_F(OnAFrame, ofAnotherSize) {
+    json camera = camera_();
+    camera["visible"] = {60, 36};
+    std::ofstream(this->camera()) << camera.dump();
+    expectRefused("corner.json makes 72 x 44");
+}
+TEST_F(OnAFrame, withDepthThatIsNoNumber) {
+    rewrite([](truth::Picture& picture) { picture.channels[size_t(picture.find("Z") - picture.channels.data())].values[5] = std::numeric_limits<float>::quiet_NaN(); });
+    expectRefused("pixel (5, 0)");
+}
+TEST_F(OnAFrame, withInfiniteDepth) {
+    rewrite([](truth::Picture& picture) { picture.channels[size_t(picture.find("Z") - picture.channels.data())].values[7] = std::numeric_limits<float>::infinity(); });
+    expectRefused("pixel (7, 0)");
+}
+TEST_F(OnAFrame, withoutAFieldOfView) {
+    json camera = camera_();
+    camera.erase("verticalFovDegrees");
+    std::ofstream(this->camera()) << camera.dump();
+    expectRefused("verticalFovDegrees");
+}
+TEST_F(OnAFrame, withACameraThatIsNoJson) {
+    std::ofstream(camera(), std::ios::trunc) << "{ \"visible\": [64,";
+    expectRefused("corner.json");
+}
+TEST_F(OnAFrame, againstAReferenceOfAnotherSize) {
+    truth::Picture picture;
+    picture.add("world.quadratic_2", truth::Plane(8, 8));
+    truth::writeExr(m_scratch / "r.exr", picture);
+    expectRefused("8 x 8", fmt::format("--reference '{}'", (m_scratch / "r.exr").string()));
+}
+TEST_F(OnAFrame, againstAChannelThatIsNotThere) {
+    truth::Picture picture;
+    picture.add("world.quadratic_2", truth::Plane(64, 36));
+    truth::writeExr(m_scratch / "r.exr", picture);
+    expectRefused("world.quadratic_2", fmt::format("--reference '{}' --falloff linear:1", (m_scratch / "r.exr").string()));
+}
+TEST_F(OnAFrame, intoAFolderThatCannotBe) {
+    std::ofstream(m_scratch / "file") << "x";
+    const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --json '{}/e.json'", exr().string(), camera().string(), (m_scratch / "file").string()));
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
+}
+
+TEST(OnAScene, whatItCapturesIsWhatItJudged) {
+    const Scratch scratch;
+    const std::string reference = (scratch / "out/toasters.own.reference.exr").string();
+    const Ended scene = runTool(fmt::format("--scene toasters --size 96x54 --rays 64 --frames 1 --json '{}' --out '{}' --capture-out '{}'", (scratch / "a.json").string(),
+                                            (scratch / "out").string(), (scratch / "frame").string()));
+    ASSERT_EQ(scene.code, 0) << scene.error;
+    const Ended capture = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --json '{}'", (scratch / "frame.capture.exr").string(),
+                                              (scratch / "frame.json").string(), reference, (scratch / "b.json").string()));
+    ASSERT_EQ(capture.code, 0) << capture.error;
+    const json a = json::parse(textOf(scratch / "a.json"))[0], b = json::parse(textOf(scratch / "b.json"))[0];
+    EXPECT_NEAR(a["eA"].get<double>(), b["eA"].get<double>(), 2e-4);
+    EXPECT_EQ(a["pixels"], b["pixels"]);
+}
+
+TEST(OnAScene, badNamesAreOneLine) {
+    for (const char* arguments : {"--scene toaster", "--scene no/such.glb", "--scene toasters --camera scene:99", "--scene toasters --camera path:no.json@1", "--scene toasters --camera no.json",
+                                  "--scene toasters --reference no.exr", "--check-baseline no.json"}) {
+        const Ended ended = runTool(arguments);
+        EXPECT_EQ(ended.code, 2) << arguments << ": " << ended.error;
+        EXPECT_EQ(ended.errorLines(), 1u) << arguments << ": " << ended.error;
+    }
+}
+
+TEST(OnAScene, theGateFailsWhenACellWorsens) {
+    const Scratch scratch;
+    const std::string file = (scratch / "b.json").string();
+    std::ofstream(file) << R"({"size":[64,36],"guard":0.1,"rays":32,"seed":1,"relative":0.03,"absolute":0.0005,"scenes":["toasters"],"cameras":["own"],)"
+                           R"("falloffs":["quadratic:2"],"references":["world"],"cells":[]})";
+    EXPECT_EQ(runTool(fmt::format("--renew-baseline '{}' --method none", file)).code, 0);
+    EXPECT_EQ(runTool(fmt::format("--check-baseline '{}' --method none", file)).code, 0);
+    json baseline = json::parse(textOf(file));
+    ASSERT_EQ(baseline["cells"].size(), 1u);
+    baseline["cells"][0]["eA"] = baseline["cells"][0]["eA"].get<double>() * 0.96;
+    std::ofstream(file) << baseline.dump();
+    const Ended worse = runTool(fmt::format("--check-baseline '{}' --method none", file));
+    EXPECT_EQ(worse.code, 1);
+    EXPECT_NE(worse.out.find("--renew-baseline"), std::string::npos) << worse.out;
+}
+
+}  // namespace
+}  // namespace obscura::evaluate
