@@ -11,7 +11,8 @@
 //   for the whole; the falloff is the shared type.
 // - Lines start one whole pixel above the surface [eq. 13 gives half of one]: with it any plane is open to the last bit.
 // - The elevation is that of the point found, a texel's centre, not its projection on the plane of n and t.
-// - Normal rays pass behind surfaces thicker than `thickness`; in the paper everything is infinitely thick.
+// - Surfaces have a thickness, one for what bends a line and one for what blocks a ray: what passes further behind them
+//   than that is not concerned [sec. 5 names the trouble: figure 13's outliers]. In the paper everything is endlessly thick.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: horizons (1 - O_T),
 // normal rays (1 - O_N alone, and both), blur.
@@ -23,15 +24,13 @@
 namespace obscura::ao {
 namespace {
 
-struct Constants {  // horizons.comp and normal_rays.comp
+struct Constants {  // of horizons.comp and normal_rays.comp
     shared::FalloffBlock falloff;
-    uint32_t directions;
-    uint32_t steps;
+    uint32_t directions, steps, rays;
     float radius;     // metres
+    float spacing, jitter;
     float offset;     // pixels
-    float jitter;
-    uint32_t rays;    // horizons.comp only asks whether there are any
-    float thickness;  // metres
+    float horizonThickness, rayThickness;  // metres
 };
 
 enum Term : uint32_t { kBoth, kHorizon, kNormalRays, kMarching };
@@ -44,19 +43,21 @@ const Parameter kParameters[] = {
     {"steps", "", 1, 64, 18, true, {}, "Samples along each horizon and each normal ray, N_s."},
     {"normal_rays", "", 0, 8, 1, true, {}, "Rays above each horizon, N_n: contact under what does not touch. 0 halves the cost."},
     {"radius", "m", 0, 100, 0, false, {}, "Radius of influence, R; 0 is the falloff's own reach."},
-    {"thickness", "R", 0.01f, 100, 0.25f, false, {}, "How thick what blocks a normal ray is, in radii; large darkens behind silhouettes."},
+    {"thickness", "R", 0.01f, 100, 0.15f, false, {}, "How thick what blocks a normal ray is, in radii; the paper's is endless and darkens behind silhouettes."},
+    {"horizon_thickness", "R", 0.01f, 100, 0.35f, false, {}, "How thick what bends a horizon is, in radii; endless in the paper."},
+    {"spacing", "", 0, 1, 0.6f, false, {}, "How samples lie along a line: 0 evenly as in the paper, 1 quadratically, denser near the pixel."},
     {"offset", "px", 0, 4, 1, false, {}, "How far above the surface lines start; below 1 slanted planes shadow themselves."},
     {"jitter", "", 0, 1, 1, false, {}, "How much steps are shifted from pixel to pixel; 0 shows bands."},
     {"term", "", 0, 3, 0, true, {kTerms, 4}, "What is shown: the sum, one term alone, or rays through the whole hemisphere with no horizon at all."},
     {"blur", "", 0, 2, 2, true, {kBlurs, 3}, "5x5 over the 4x4 noise tile: by depth as in the paper, or along the surface."},
 };
-const Setting kPaperFast[] = {{"directions", 6}, {"steps", 9}, {"normal_rays", 0}, {"blur", kDepthDeviation}};
-const Setting kPaper[] = {{"directions", 7}, {"steps", 12}, {"blur", kDepthDeviation}};
+const Setting kPaperFast[] = {{"directions", 6}, {"steps", 9}, {"normal_rays", 0}, {"thickness", 100}, {"horizon_thickness", 100}, {"spacing", 0}, {"blur", kDepthDeviation}};
+const Setting kPaper[] = {{"directions", 7}, {"steps", 12}, {"thickness", 100}, {"horizon_thickness", 100}, {"spacing", 0}, {"blur", kDepthDeviation}};
 const Setting kQuality[] = {{"directions", 18}, {"steps", 25}, {"normal_rays", 2}};
 const Preset kPresets[] = {
     {"default", "8 directions x 18 steps, one normal ray.", {}},
-    {"paper_fast", "6 x 9 and horizons alone, the paper's fast setting and its blur.", {kPaperFast, std::size(kPaperFast)}},
-    {"paper", "7 x 12 and one normal ray, as in the paper's table 1, and its blur.", {kPaper, std::size(kPaper)}},
+    {"paper_fast", "The paper's fast setting: 6 x 9, horizons alone, even steps, endless thickness, its blur.", {kPaperFast, std::size(kPaperFast)}},
+    {"paper", "The setting of the paper's table 1: 7 x 12, one normal ray, even steps, endless thickness, its blur.", {kPaper, std::size(kPaper)}},
     {"quality", "18 x 25 and two normal rays, the paper's best.", {kQuality, std::size(kQuality)}},
 };
 const MethodInfo kInfo{"horizon_split",
@@ -84,8 +85,9 @@ public:
         const auto& visible = inputs.view.visible;
         const uint32_t term = values.count("term");
         const float reach = inputs.falloff.reach, radius = values["radius"] > 0.0f ? std::min(values["radius"], reach) : reach;
-        Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), radius, values["offset"], values["jitter"],
-                            values.count("normal_rays"), values["thickness"] * radius};
+        Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), values.count("normal_rays"), radius,
+                            values["spacing"], values["jitter"], values["offset"],
+                            values["horizon_thickness"] * radius, values["thickness"] * radius};
         if (term == kHorizon) constants.rays = 0;
         if (term == kNormalRays || term == kMarching) constants.rays = std::max(constants.rays, 1u);
 

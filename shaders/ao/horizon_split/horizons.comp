@@ -4,7 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/horizon_split/march.glsl"
-#include "shared/falloff.h"
 #include "shared/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
@@ -12,36 +11,27 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D horizons;
-layout(push_constant) uniform Constants {
-    FalloffBlock falloffBlock;
-    uint directions;
-    uint steps;
-    float radius;     // metres
-    float offset;     // pixels
-    float jitter;     // of the steps, 0..1
-    uint keep;        // 1: somebody wants the horizons
-};
-
 // One direction's line on its way. `sine` of its elevation is H.
 struct Line {
     vec3 t, along;    // tangent; the same in homogeneous pixels
-    float l;          // metres to the next step
+    float at, l;      // the next step: part of the radius, metres
     float sine, cosine;
     float before;     // falloff where the strip being looked for begins
     float occlusion;
 };
 
 // One step: does the surface at the line's end stand before it? Then it bends the line up.
-void march(inout Line line, Origin origin, vec3 start, vec3 up, Lens lens, FalloffBlock rho, float reach, float stepLength) {
+void march(inout Line line, Origin origin, vec3 start, vec3 up, Lens lens, FalloffBlock rho, Steps walk) {
     vec3 q = start + line.l * (line.cosine * line.along + line.sine * up);
-    ivec2 at;
-    bool inside = texelOf(lens, q, at);
-    float z = imageLoad(depth, at).x;
-    vec3 v = surfaceAt(lens, at, z) - origin.position;
+    ivec2 texel;
+    bool inside = texelOf(lens, q, texel);
+    float z = imageLoad(depth, texel).x;
+    vec3 v = surfaceAt(lens, texel, z) - origin.position;
     float square = dot(v, v);
     float inverse = inversesqrt(max(square, 1e-20));
     float s = dot(v, origin.n) * inverse, distance = square * inverse;
-    bool raises = inside && z < q.z && distance < reach && dot(v, line.t) > 0.0 && s > line.sine;
+    float behind = q.z - z;
+    bool raises = inside && behind > 0.0 && behind < walk.thickness && distance < walk.radius && dot(v, line.t) > 0.0 && s > line.sine;
     // Until the first rise a strip begins at the tangent plane, where the line is: one evaluation serves both.
     float here = falloff(rho, raises ? distance : line.l);
     // H^2 gained by this strip, weighted by the mean of its two ends [Dimitrov, eq. 6, sec. 3.5].
@@ -49,14 +39,13 @@ void march(inout Line line, Origin origin, vec3 start, vec3 up, Lens lens, Fallo
     line.before = raises || line.sine == 0.0 ? here : line.before;
     line.sine = raises ? s : line.sine;
     line.cosine = sqrt(max(1.0 - line.sine * line.sine, 0.0));
-    line.l += stepLength;
+    line.at += walk.part;
+    line.l = metresAt(walk, line.at);
 }
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
     FalloffBlock rho = falloffBlock;
-    float reach = radius;
-    uint count = steps;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
@@ -69,7 +58,7 @@ void main() {
     Noise noise = noiseAt(texel);
     Lens lens = lensOf(view);
     vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
-    float stepLength = reach / float(max(count, 1u));
+    Steps walk = stepsOf(steps, radius, spacing, horizonThickness);
     float turn = 6.28318531 / float(directions);
     vec2 direction = vec2(cos(noise.rotation * turn), sin(noise.rotation * turn));
     mat2 next = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
@@ -81,13 +70,13 @@ void main() {
         Line lines[2];
         for (uint k = 0u; k < 2u; ++k) {
             vec3 t = direction.x * origin.b + direction.y * origin.c;
-            float l = mix(0.5, fract(noise.step + float(i + k) * kNextStep), jitter) * stepLength;
-            lines[k] = Line(t, toPixels(lens, t), l, 0.0, 1.0, 1.0, 0.0);
+            float at = mix(0.5, fract(noise.step + float(i + k) * kNextStep), jitter) * walk.part;
+            lines[k] = Line(t, toPixels(lens, t), at, metresAt(walk, at), 0.0, 1.0, 1.0, 0.0);
             direction = next * direction;
         }
-        for (uint j = 0u; j < count; ++j) {
-            march(lines[0], origin, start, up, lens, rho, reach, stepLength);
-            march(lines[1], origin, start, up, lens, rho, reach, stepLength);
+        for (uint j = 0u; j < walk.count; ++j) {
+            march(lines[0], origin, start, up, lens, rho, walk);
+            march(lines[1], origin, start, up, lens, rho, walk);
         }
         if (i + 1u == directions) lines[1].sine = lines[1].occlusion = 0.0;  // an odd count's last line is alone
         occlusion += lines[0].occlusion + lines[1].occlusion;
@@ -95,7 +84,7 @@ void main() {
         uvec2 sines = uvec2(ceil(vec2(lines[0].sine * lines[0].sine, lines[1].sine * lines[1].sine) * 255.0));
         word |= (min(sines.x, 255u) | min(sines.y, 255u) << 8) << (8u * (i & 2u));
         if ((i & 2u) != 0u || i + 2u >= directions) {
-            if (keep != 0u) imageStore(horizons, wordAt(p, i >> 2, view.visible), uvec4(word));
+            if (rays != 0u) imageStore(horizons, wordAt(p, i >> 2, view.visible), uvec4(word));
             word = 0u;
         }
     }

@@ -2,7 +2,20 @@
 // eye space told as pixels. Lines are kept in homogeneous pixels, so that a step costs two additions and one division.
 #ifndef OBSCURA_HORIZON_SPLIT_MARCH_GLSL
 #define OBSCURA_HORIZON_SPLIT_MARCH_GLSL
+#include "shared/falloff.h"
 #include "shared/view.h"
+
+layout(push_constant) uniform Constants {  // of both passes
+    FalloffBlock falloffBlock;
+    uint directions;  // N_d
+    uint steps;       // N_s
+    uint rays;        // N_n, per direction; horizons ask whether there are any
+    float radius;     // R, metres
+    float spacing;    // of steps: 0 even, as in the paper; 1 quadratic, denser near the pixel
+    float jitter;     // of steps, 0..1
+    float offset;     // of lines from the surface, pixels
+    float horizonThickness, rayThickness;  // of surfaces in the way of horizons and of rays, metres
+};
 
 // Two permutations of 0..15 over a 4x4 tile; the third noise is a third one. Values are (i + 0.5) / 16.
 const float kRotation[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
@@ -52,6 +65,18 @@ bool texelOf(Lens lens, vec3 q, out ivec2 texel) {
 vec3 surfaceAt(Lens lens, ivec2 texel, float z) {
     return vec3(((vec2(texel) + 0.5) * lens.unproject.xy + lens.unproject.zw) * (z * lens.scale.x + lens.scale.y), -z);
 }
+
+// Where samples lie along a line: step j of N_s at part t = (j + noise) / N_s of it.
+struct Steps {
+    uint count;
+    float part;       // from step to step, 1 / N_s
+    float radius, spacing;
+    float thickness;  // of the surfaces that the depth buffer shows, metres
+};
+Steps stepsOf(uint count, float radius, float spacing, float thickness) {
+    return Steps(count, 1.0 / float(max(count, 1u)), radius, spacing, thickness);
+}
+float metresAt(Steps walk, float t) { return walk.radius * t * mix(1.0, t, walk.spacing); }
 
 // H^2 of every direction in 8 bits, four directions a word; words stand beside and below each other in one image.
 ivec2 wordAt(ivec2 p, uint word, uvec2 visible) { return p + ivec2(uvec2(word & 1u, word >> 1) * visible); }

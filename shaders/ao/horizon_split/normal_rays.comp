@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/horizon_split/march.glsl"
-#include "shared/falloff.h"
 #include "shared/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
@@ -13,30 +12,21 @@ layout(set = 0, binding = 3, r16f) uniform readonly image2D belowHorizon;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D horizons;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D aboveHorizon;
 layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants {
-    FalloffBlock falloffBlock;
-    uint directions;
-    uint steps;
-    float radius;     // metres
-    float offset;     // pixels
-    float jitter;     // of the steps, 0..1
-    uint rays;        // per direction
-    float thickness;  // metres
-};
-
+// How far along a ray something stands in its way, metres; the middle of the step that found it. kFree: nothing does. Here
+// the depth buffer answers, whose surfaces are `thickness` deep; a grid of voxels would be a second function like it.
 const float kFree = 3e38;
-
-// How far along the ray start + l * ray (homogeneous pixels) something stands in its way; kFree: nothing. Here the depth
-// buffer answers, whose surfaces are `thick` metres deep; rays in a voxel grid are a second function of this kind.
-float blockedAt(Lens lens, vec3 start, vec3 ray, float first, float stepLength, uint count, float thick) {
-    float result = kFree, l = first;
-    for (uint j = 0u; j < count; ++j) {
+float blockedAt(Lens lens, vec3 start, vec3 ray, Steps walk, float first) {
+    float result = kFree, before = 0.0;
+    float at = first;
+    for (uint j = 0u; j < walk.count; ++j) {
+        float l = metresAt(walk, at);
         vec3 q = start + l * ray;
-        ivec2 at;
-        bool inside = texelOf(lens, q, at);
-        float behind = q.z - imageLoad(depth, at).x;
-        result = inside && behind > 0.0 && behind < thick ? min(result, l) : result;
-        l += stepLength;
+        ivec2 texel;
+        bool inside = texelOf(lens, q, texel);
+        float behind = q.z - imageLoad(depth, texel).x;
+        result = inside && behind > 0.0 && behind < walk.thickness ? min(result, 0.5 * (l + before)) : result;
+        before = l;
+        at += walk.part;
     }
     return result;
 }
@@ -44,8 +34,6 @@ float blockedAt(Lens lens, vec3 start, vec3 ray, float first, float stepLength, 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
     FalloffBlock rho = falloffBlock;
-    uint count = steps;
-    float thick = thickness;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
@@ -59,7 +47,7 @@ void main() {
     Noise noise = noiseAt(texel);
     Lens lens = lensOf(view);
     vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
-    float stepLength = radius / float(count);
+    Steps walk = stepsOf(steps, radius, spacing, rayThickness);
     float turn = 6.28318531 / float(directions);
     vec2 direction = vec2(cos(noise.rotation * turn), sin(noise.rotation * turn));
     mat2 next = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
@@ -71,15 +59,14 @@ void main() {
         float horizon2 = float(word & 255u) / 255.0;
         word >>= 8u;
         vec3 along = toPixels(lens, direction.x * origin.b + direction.y * origin.c);
-        float first = mix(0.5, fract(noise.step + float(i) * kNextStep), jitter) * stepLength;
+        float first = mix(0.5, fract(noise.step + float(i) * kNextStep), jitter) * walk.part;
         float elevation = fract(noise.normal + float(i) * kNextNormal);
         // Equal shares of what is left above this direction's horizon [Dimitrov, eq. 8-11, per direction].
         float share = (1.0 - horizon2) / float(rays);
         for (uint k = 0u; k < rays; ++k) {
             float sine2 = horizon2 + (float(k) + elevation) * share;
             vec3 ray = sqrt(max(1.0 - sine2, 0.0)) * along + sqrt(sine2) * up;
-            float l = blockedAt(lens, start, ray, first, stepLength, count, thick);
-            occlusion += share * falloff(rho, 0.5 * (l + max(l - stepLength, 0.0)));
+            occlusion += share * falloff(rho, blockedAt(lens, start, ray, walk, first));
         }
         direction = next * direction;
     }

@@ -1,0 +1,141 @@
+// The two terms by themselves: nothing on a plane, equal shares above a known horizon, never more than the hemisphere.
+#include <random>
+
+#include "horizon_split/bench.h"
+
+namespace obscura::test {
+namespace {
+
+// The plane n.x = -1.6, seen at an angle or not; sky where it does not reach.
+Room plane(const std::array<float, 3>& normal) {
+    Room room;
+    room.build();
+    const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (uint32_t y = 0; y < room.height; ++y) {
+        for (uint32_t x = 0; x < room.width; ++x) {
+            const size_t i = size_t(y) * room.width + x;
+            const float right = ((float(x) + 0.5f) / float(room.width) * 2.0f - 1.0f) / room.projection[0];
+            const float up = ((float(y) + 0.5f) / float(room.height) * 2.0f - 1.0f) / room.projection[5];
+            const float facing = (normal[0] * right + normal[1] * up - normal[2]) / length;
+            const float z = facing < 0.0f ? -1.6f / facing : 1e4f;
+            room.depth[i] = z < 200.0f ? z : 1e4f;
+            for (int c = 0; c < 3; ++c) room.normals[4 * i + c] = normal[c] / length;
+        }
+    }
+    return room;
+}
+
+class Planes : public HorizonSplitTest, public testing::WithParamInterface<std::array<float, 3>> {};
+INSTANTIATE_TEST_SUITE_P(Terms, Planes, testing::Values(std::array{0.0f, 1.0f, 0.0f}, std::array{0.5f, 1.0f, 0.05f}));
+
+TEST_P(Planes, areOpenToTheLastBit) {
+    const Room room = plane(GetParam());
+    EXPECT_LT(highest(run(room, values({}))), 1e-6f);
+    EXPECT_LT(highest(run(room, values({}, "quality"))), 1e-6f);
+    // Texel centres lie on the plane, so no horizon rises even without the offset; rays do hit the staircase.
+    EXPECT_LT(highest(run(room, values({{"offset", 0}, {"normal_rays", 0}}))), 1e-6f);
+    EXPECT_GT(mean(run(room, values({{"offset", 0}, {"term", kNormalRays}, {"thickness", 100}}))), 0.1);
+}
+
+// A pixel at the bottom of a hole one pixel wide, under a plate `height` above its start, orthographic, 1 mm a pixel.
+// With constant falloff, no jitter and first steps at `kFirst`, every direction's horizon is that of the plate there.
+constexpr float kPixel = 0.001f, kFirst = 0.02f;
+constexpr uint32_t kSteps = 3;  // kRadius / kSteps / 2 is kFirst
+const char* const kFalloff = "constant:0.12";
+
+Room hole(float height) {
+    Room room;
+    room.width = room.height = 321;
+    room.guard = 160;
+    room.build();
+    const float scale = 2.0f / (float(room.width) * kPixel);
+    const float orthographic[16] = {scale, 0, 0, 0, 0, -scale, 0, 0, 0, 0, -0.01f, 0, 0, 0, 0, 1};
+    std::memcpy(room.projection, orthographic, sizeof(orthographic));
+    std::fill(room.depth.begin(), room.depth.end(), 2.0f - kPixel - height);
+    room.depth[160 * 321 + 160] = 2.0f;
+    for (size_t i = 0; i < room.depth.size(); ++i) {
+        room.normals[4 * i + 1] = 0.0f;
+        room.normals[4 * i + 2] = 1.0f;
+    }
+    return room;
+}
+
+class UnderAPlate : public HorizonSplitTest {
+protected:
+    // One term at the bottom of the hole; surfaces endlessly thick and steps even unless `changes` say otherwise.
+    float at(float height, Term term, const Changes& changes) {
+        Changes all = {{"steps", kSteps}, {"jitter", 0}, {"spacing", 0}, {"thickness", 100}, {"horizon_thickness", 100}, {"blur", 0}, {"term", float(term)}};
+        all.insert(all.end(), changes.begin(), changes.end());
+        const Picture picture = run(hole(height), values(all), kFalloff);
+        EXPECT_EQ(picture.size(), 1u);
+        return picture.at(0);
+    }
+};
+
+TEST_F(UnderAPlate, aKnownHorizonCountsItsSquare) {
+    // Sine of the plate's elevation where the first step finds it: 0.6. Later steps pass in front of the plate.
+    for (const float directions : {1.0f, 4.0f, 7.0f, 8.0f, 24.0f}) EXPECT_NEAR(at(0.75f * kFirst, kHorizon, {{"directions", directions}}), 0.36f, 0.02f) << directions;
+}
+
+TEST_F(UnderAPlate, raysShareWhatIsLeftOfTheirOwnDirection) {
+    // Above a horizon of 0.6 four rays stand for .36 - .52 - .68 - .84 - 1 of the hemisphere, .16 each. The plate blocks rays
+    // with a sine below 0.75, squared .5625: all of the first, a quarter of the second, none of the others.
+    EXPECT_NEAR(at(0.75f * kFirst, kNormalRays, {{"directions", 24}, {"normal_rays", 4}}), 0.16f + (0.5625f - 0.52f), 0.02f);
+}
+
+TEST_F(UnderAPlate, blockedAllAroundIsOneAndNotMore) {
+    const float height = 1.2f * kFirst;  // H^2 = 1.44 / 2.44, and every ray meets the plate
+    for (const float directions : {3.0f, 8.0f, 17.0f}) {
+        for (const float rays : {1.0f, 4.0f}) {
+            const Changes changes = {{"directions", directions}, {"normal_rays", rays}};
+            EXPECT_NEAR(at(height, kHorizon, changes), 0.59f, 0.03f);
+            EXPECT_NEAR(at(height, kHorizon, changes) + at(height, kNormalRays, changes), 1.0f, 0.006f) << directions << " directions, " << rays << " rays";
+            EXPECT_GT(at(height, kBoth, changes), 0.994f);
+        }
+    }
+}
+
+TEST_F(UnderAPlate, whatPassesFarBehindASurfaceIsNotConcerned) {
+    // Lines are behind the plate by at most its height, 0.2 radii.
+    const float height = 1.2f * kFirst;
+    EXPECT_GT(at(height, kNormalRays, {{"thickness", 0.25f}}), 0.35f);
+    EXPECT_EQ(at(height, kNormalRays, {{"thickness", 0.01f}}), 0.0f);
+    EXPECT_GT(at(height, kHorizon, {{"horizon_thickness", 0.25f}}), 0.5f);
+    EXPECT_EQ(at(height, kHorizon, {{"horizon_thickness", 0.01f}}), 0.0f);
+}
+
+TEST_F(HorizonSplitTest, anyDepthsGiveAtMostTheHemisphere) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> depths(2.0f, 3.0f), components(-1.0f, 1.0f);
+    Room room;
+    room.build();
+    for (float& z : room.depth) z = depths(random);
+    for (float& n : room.normals) n = components(random);
+    for (const char* falloff : {"constant:1", "linear:1.5", "exponential:0.3"}) {
+        const Picture both = run(room, values({{"normal_rays", 2}, {"blur", 0}}), falloff);
+        const Picture horizon = run(room, values({{"blur", 0}, {"term", kHorizon}}), falloff);
+        const Picture rays = run(room, values({{"normal_rays", 2}, {"blur", 0}, {"term", kNormalRays}}), falloff);
+        for (size_t i = 0; i < both.size(); ++i) {
+            ASSERT_GE(horizon[i], 0.0f);
+            ASSERT_GE(rays[i], 0.0f);
+            ASSERT_LE(horizon[i] + rays[i], 1.001f) << falloff << " pixel " << i;
+            ASSERT_NEAR(horizon[i] + rays[i], both[i], 0.002f) << falloff << " pixel " << i;  // half floats
+        }
+        EXPECT_GT(mean(both), 0.2) << falloff;
+    }
+}
+
+TEST_F(HorizonSplitTest, horizonsAndRaysAreSeparatePasses) {
+    Room room;
+    room.wall = -4.0f;
+    room.build();
+    run(room, values({}));
+    for (const char* pass : {"horizon_split.horizons", "horizon_split.normal rays", "horizon_split.blur"}) EXPECT_TRUE(m_passes.count(pass)) << pass;
+    run(room, values({}, "paper_fast"));
+    EXPECT_FALSE(m_passes.count("horizon_split.normal rays"));
+    run(room, values({{"blur", 0}}));
+    EXPECT_FALSE(m_passes.count("horizon_split.blur"));
+}
+
+}  // namespace
+}  // namespace obscura::test
