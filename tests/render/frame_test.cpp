@@ -103,12 +103,17 @@ TEST_F(Frame, normalsAreTheTrianglesAndFaceTheViewer) {
     render::FrameOptions options = bench.options();
     const Picture picture = bench.render(world, options);
     const glm::mat3 eye(options.camera.view());
+    const glm::mat4 projection = options.camera.projection({picture.size.width, picture.size.height}, {320, 240});
     const float epsilon = 2e-3f;
     size_t up = 0, down = 0, wrong = 0;
     for (uint32_t y = 0; y < picture.size.height; ++y)
         for (uint32_t x = 0; x < picture.size.width; ++x) {
             if (picture.depth.at<float>(x, y) <= 0.0f) continue;
-            const glm::vec3 world_ = glm::transpose(eye) * picture.normalAt(x, y);
+            const glm::vec3 normal = picture.normalAt(x, y);
+            const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / glm::vec2(picture.size.width, picture.size.height) * 2.0f - 1.0f;
+            const glm::vec3 ray(ndc.x / projection[0][0], ndc.y / projection[1][1], -1.0f);
+            const glm::vec3 world_ = glm::transpose(eye) * normal;
+            if (glm::dot(normal, ray) > 0.0f) ++wrong;
             if (glm::length(world_ - glm::vec3(0, 1, 0)) < epsilon) ++up;
             else if (glm::length(world_ - glm::vec3(0, -1, 0)) < epsilon) ++down;
             else ++wrong;
