@@ -6,7 +6,8 @@
 namespace obscura::render {
 namespace {
 
-constexpr uint32_t kSettled = 8;  // frames
+// Frames at rest until something counts as furniture: many, since each change of mind redraws all the furniture's shadows.
+constexpr uint32_t kSettled = 600;
 
 scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix) {
     scene::Bounds out;
@@ -82,6 +83,7 @@ void Actors::rebuild(Actor& actor, const scene::Instance& instance, const ModelG
     actor = {};
     actor.model = instance.model;
     actor.root = instance.root;
+    const std::vector<bool> animated = scene::animatedNodes(*instance.model, instance.animation);
     for (const int node : scene::subtree(*instance.model, instance.root)) {
         const scene::Node& source = instance.model->nodes[size_t(node)];
         if (source.mesh < 0) continue;
@@ -89,6 +91,7 @@ void Actors::rebuild(Actor& actor, const scene::Instance& instance, const ModelG
             if (primitive.indexCount == 0) continue;
             Piece piece{node, &primitive, primitive.skinned && source.skin >= 0};
             if (piece.skinned || primitive.morphed) piece.posed = m_ranges.take(primitive.vertexCount);
+            if (piece.posed == kNotPosed && !animated[size_t(node)]) piece.rested = kSettled;
             actor.pieces.push_back(piece);
         }
     }
@@ -169,8 +172,7 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
             drawable.world = piece.skinned ? instance.placement : instance.placement * actor.pose.world[size_t(piece.node)];
             drawable.previousWorld = fresh ? drawable.world : piece.world;
             drawable.still = fresh || (drawable.world == piece.world && (piece.posed == kNotPosed || samePoses));
-            // What is rigid is taken to be at rest until it moves.
-            piece.rested = actor.fresh ? (piece.posed == kNotPosed ? kSettled : 0) : drawable.still ? std::min(piece.rested + 1, kSettled) : 0;
+            piece.rested = drawable.still ? std::min(piece.rested + 1, kSettled) : 0;
             drawable.settled = piece.rested >= kSettled;
             const glm::vec3 reach = morphReach(primitive, actor.pose.weights[size_t(piece.node)]);
             glm::mat4 facing = drawable.world;

@@ -27,22 +27,22 @@ scene::Bounds seenAlong(const glm::mat4& axes, const scene::Bounds& box) {
     return out;
 }
 
-// The square and depth range of the map in light space. It moves by whole texels and grows by steps, so that shadows of
-// things at rest do not crawl while others move.
+// The square and depth range of the map in light space. Both move and grow by steps - of whole texels, so that shadows of
+// things at rest do not crawl, and of many, so that what moves rarely makes the rest be drawn again.
 struct Fit { glm::vec2 centre; float side, low, high; };
 Fit fit(const scene::Bounds& world, const glm::vec3& around, float reach, uint32_t size) {
     const glm::vec3 extent = world.max - world.min;
-    float side = std::max({extent.x, extent.y, 0.1f});
+    float side = std::max({extent.x, extent.y, 0.1f}) * 1.07f;  // a step of the centre and a border
     glm::vec2 centre(world.centre());
     if (side > 2.0f * reach) {
         side = 2.0f * reach;
         centre = glm::vec2(around);
     } else {
-        side = std::exp2(std::ceil(std::log2(side * 1.02f) * 4.0f) / 4.0f);
+        side = std::exp2(std::ceil(std::log2(side) * 4.0f) / 4.0f);
     }
-    const float texel = side / float(size);
-    const float step = texel * 16.0f;
-    return {glm::round(centre / texel) * texel, side, (std::floor(world.min.z / step) - 1.0f) * step, (std::ceil(world.max.z / step) + 1.0f) * step};
+    const float step = side / float(size) * float(std::max(size / 32, 1u));
+    const float deep = side / 8.0f;
+    return {glm::round(centre / step) * step, side, std::floor(world.min.z / deep - 0.1f) * deep, std::ceil(world.max.z / deep + 0.1f) * deep};
 }
 
 struct Fingerprint {
