@@ -1,6 +1,7 @@
 // The render graph on a device: data arrives through every kind of hazard, misuse is named, timings add up.
 #include <chrono>
 #include <cstring>
+#include <map>
 
 #include "gpu/test_device.h"
 #include "gpu/test_shaders.h"
@@ -163,42 +164,39 @@ TEST_F(GraphTest, misuseIsOneLineThatNamesThePass) {
 // pass with four times the work must take about four times as long.
 TEST_F(GraphTest, passTimesAddUpToTheFrameAndToTheClock) {
     if (!m_device.caps().timestamps) GTEST_SKIP() << "this device has no timestamps";
-    double sum = 0.0, total = 0.0, wall = 0.0, ratio = 0.0;
     gpu::Buffer buffers[2];
     for (gpu::Buffer& buffer : buffers)
         ASSERT_EQ(gpu::Buffer::create(m_device, 256 * 256 * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::device, "work", buffer), Status::ok);
-    // Other work on the machine can stretch either clock; one clean round of a few is enough.
-    bool held = false;
-    for (int round = 0; round < 8 && !held; ++round) {
-        double milliseconds = 0.0;
-        for (uint32_t frame = 0; frame < m_device.framesInFlight() + 2; ++frame) {
-            begin();
-            const ImageId drawn = image("drawn", 256);
-            const BufferId one = m_graph.import("one", buffers[0], Graph::Shared::constant), four = m_graph.import("four", buffers[1], Graph::Shared::constant);
-            m_graph.pass("draw", m_kit.triangle).color(drawn, VkClearColorValue{}).constants(Push{1.0f, 0}).draw(3);
-            m_graph.pass("one", m_kit.work).write(one).constants(Push{0.3f, 60}).keep().dispatch(256, 256);
-            m_graph.pass("four", m_kit.work).write(four).constants(Push{0.3f, 240}).keep().dispatch(256, 256);
-            probe(drawn);
-            const auto start = std::chrono::steady_clock::now();
-            ASSERT_EQ(submit(), Status::ok);
-            milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        }
+    // Other work on the machine stretches both clocks; the best of many frames is the machine's own.
+    std::map<uint64_t, double> wall;  // by frame
+    double one = 1e9, four = 1e9, gap = 1e9;
+    const auto settled = [&] { return gap <= 0.15 && four / one > 3.0 && four / one < 5.0; };
+    for (int frame = 0; frame < 60 && !(frame > 12 && settled()); ++frame) {
         begin();
         const Timings& timings = m_graph.timings();
-        sum = 0.0;
-        double first = 0.0, second = 0.0;
-        for (const PassTime& pass : timings.passes) {
-            sum += pass.milliseconds;
-            if (pass.name == "one") first = pass.milliseconds;
-            if (pass.name == "four") second = pass.milliseconds;
+        if (wall.count(timings.frame) && frame > 4) {  // the first frames compile
+            double sum = 0.0;
+            for (const PassTime& pass : timings.passes) {
+                sum += pass.milliseconds;
+                if (pass.name == "one") one = std::min(one, pass.milliseconds);
+                if (pass.name == "four") four = std::min(four, pass.milliseconds);
+            }
+            ASSERT_NEAR(sum, timings.milliseconds, 0.001 * sum + 0.001);
+            gap = std::min(gap, std::abs(sum - wall[timings.frame]) / wall[timings.frame]);
         }
-        total = timings.milliseconds;
-        ratio = second / first;
-        ASSERT_NEAR(sum, total, 0.001 * total + 0.001);
-        held = std::abs(sum - milliseconds) <= 0.15 * milliseconds + 0.5 && ratio > 2.8 && ratio < 5.5;
-        wall = milliseconds;
+        const ImageId drawn = image("drawn", 256);
+        const BufferId first = m_graph.import("one", buffers[0], Graph::Shared::constant), second = m_graph.import("four", buffers[1], Graph::Shared::constant);
+        m_graph.pass("draw", m_kit.triangle).color(drawn, VkClearColorValue{}).constants(Push{1.0f, 0}).draw(3);
+        m_graph.pass("one", m_kit.work).write(first).constants(Push{0.3f, 60}).keep().dispatch(256, 256);
+        m_graph.pass("four", m_kit.work).write(second).constants(Push{0.3f, 240}).keep().dispatch(256, 256);
+        probe(drawn);
+        const auto start = std::chrono::steady_clock::now();
+        ASSERT_EQ(submit(), Status::ok);
+        wall[m_device.frame()] = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
-    EXPECT_TRUE(held) << "sum of passes " << sum << " ms, first to last " << total << " ms, host clock " << wall << " ms, four/one " << ratio;
+    EXPECT_LE(gap, 0.15) << "the passes' sum against the host's clock";
+    EXPECT_GT(four / one, 3.0) << "one " << one << " ms, four " << four << " ms";
+    EXPECT_LT(four / one, 5.0) << "one " << one << " ms, four " << four << " ms";
 }
 
 TEST_F(GraphTest, poolForgetsWhatIsNoLongerUsed) {
