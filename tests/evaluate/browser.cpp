@@ -38,7 +38,12 @@ std::vector<std::byte> fromBase64(const std::string& text) {
     uint32_t bits = 0;
     int count = 0;
     for (const char c : text) {
-        const int value = c >= 'A' && c <= 'Z' ? c - 'A' : c >= 'a' && c <= 'z' ? c - 'a' + 26 : c >= '0' && c <= '9' ? c - '0' + 52 : c == '+' ? 62 : c == '/' ? 63 : -1;
+        const int value = c >= 'A' && c <= 'Z'   ? c - 'A'
+                          : c >= 'a' && c <= 'z' ? c - 'a' + 26
+                          : c >= '0' && c <= '9' ? c - '0' + 52
+                          : c == '+'             ? 62
+                          : c == '/'             ? 63
+                                                 : -1;
         if (value < 0) continue;
         bits = bits << 6 | uint32_t(value);
         if ((count += 6) >= 8) bytes.push_back(std::byte(bits >> (count -= 8) & 255));
@@ -70,8 +75,9 @@ std::unique_ptr<Browser> Browser::start(const fs::path& profile, std::string& re
         ::dup2(in, 3);
         ::dup2(out, 4);
         ::setpgid(0, 0);
-        ::execl(program.c_str(), program.c_str(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                "--no-first-run", "--hide-scrollbars", profileOption.c_str(), "--remote-debugging-pipe", "about:blank", nullptr);
+        ::execl(program.c_str(), program.c_str(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--hide-scrollbars",
+                profileOption.c_str(), "--remote-debugging-pipe", "about:blank", nullptr);
         ::_exit(127);
     }
     ::close(toBrowser[0]);
@@ -175,7 +181,12 @@ json Browser::evaluate(const std::string& expression) {
 }
 
 void Browser::mouse(const char* type, double x, double y, int buttons) {
-    call("Input.dispatchMouseEvent", {{"type", type}, {"x", x}, {"y", y}, {"button", std::string_view(type) == "mouseMoved" && !buttons ? "none" : "left"}, {"buttons", buttons}, {"clickCount", 1}});
+    call("Input.dispatchMouseEvent", {{"type", type},
+                                      {"x", x},
+                                      {"y", y},
+                                      {"button", std::string_view(type) == "mouseMoved" && !buttons ? "none" : "left"},
+                                      {"buttons", buttons},
+                                      {"clickCount", 1}});
 }
 void Browser::click(double x, double y) { drag(x, y, x, y); }
 void Browser::drag(double x0, double y0, double x1, double y1) {
@@ -186,7 +197,8 @@ void Browser::drag(double x0, double y0, double x1, double y1) {
 }
 
 void Browser::key(const std::string& name, int code) {
-    for (const char* type : {"rawKeyDown", "keyUp"}) call("Input.dispatchKeyEvent", {{"type", type}, {"key", name}, {"code", name}, {"windowsVirtualKeyCode", code}});
+    for (const char* type : {"rawKeyDown", "keyUp"})
+        call("Input.dispatchKeyEvent", {{"type", type}, {"key", name}, {"code", name}, {"windowsVirtualKeyCode", code}});
 }
 
 std::vector<std::byte> Browser::screenshot() { return fromBase64(call("Page.captureScreenshot", {{"format", "png"}}).value("data", "")); }

@@ -24,7 +24,8 @@ std::string textOf(const fs::path& file) {
 
 Ended runTool(const std::string& arguments) {
     const Scratch scratch;
-    const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", OBSCURA_EVALUATE, arguments, (scratch / "out").string(), (scratch / "error").string());
+    const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", OBSCURA_EVALUATE, arguments, (scratch / "out").string(),
+                                            (scratch / "error").string());
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(scratch / "out"), textOf(scratch / "error")};
 }
@@ -40,9 +41,7 @@ Scratch::~Scratch() {
     fs::remove_all(m_folder, ignored);
 }
 
-size_t Scratch::files() const {
-    return size_t(std::distance(fs::recursive_directory_iterator(m_folder), fs::recursive_directory_iterator()));
-}
+size_t Scratch::files() const { return size_t(std::distance(fs::recursive_directory_iterator(m_folder), fs::recursive_directory_iterator())); }
 
 truth::CapturedFrame cornerFrame() {
     truth::CapturedFrame frame = truth::emptyFrame({64, 36}, {6, 4}, 1.0471976f, 0.1f);

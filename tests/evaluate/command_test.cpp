@@ -1,5 +1,7 @@
 // The tool as a user runs it: frames in, numbers and files out; bad input is one line, exit code 2 and nothing written.
+#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -14,6 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+std::vector<float>& valuesOf(truth::Picture& picture, std::string_view name) {
+    return std::find_if(picture.channels.begin(), picture.channels.end(), [&](const auto& channel) { return channel.name == name; })->values;
+}
+std::vector<float>& depthOf(truth::Picture& picture) { return valuesOf(picture, "Z"); }
+
 class OnAFrame : public testing::Test {
 protected:
     void SetUp() override { truth::writeCapture(m_scratch / "corner", cornerFrame()); }
@@ -23,13 +30,12 @@ protected:
     // A broken frame is refused with one line that holds `expected`, and nothing appears.
     void expectRefused(const std::string& expected, const std::string& more = "") {
         const size_t before = m_scratch.files();
-        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --json '{}' --out '{}' {}", exr().string(), camera().string(), (m_scratch / "e.json").string(),
-                                                (m_scratch / "out").string(), more));
+        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --json '{}' --out '{}' {}", exr().string(), camera().string(),
+                                                (m_scratch / "e.json").string(), (m_scratch / "out").string(), more));
         EXPECT_EQ(ended.code, 2) << ended.error;
         EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
         EXPECT_NE(ended.error.find(expected), std::string::npos) << ended.error;
         EXPECT_EQ(ended.out, "");
-        fs::remove(m_scratch / "out");  // an empty folder is no result
         EXPECT_EQ(m_scratch.files(), before);
     }
     void rewrite(const std::function<void(truth::Picture&)>& change) {
@@ -42,25 +48,29 @@ protected:
 };
 
 TEST_F(OnAFrame, numbersPicturesAndTables) {
-    const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --method hbao --preset all --falloff quadratic:2,exponential:1 --rays 64 --frames 2 --json '{}' --out '{}'",
-                                            exr().string(), camera().string(), (m_scratch / "e.json").string(), (m_scratch / "out").string()));
+    const Ended ended = runTool(fmt::format(
+        "--capture '{}' --camera '{}' --method hbao --preset all --falloff quadratic:2,exponential:1 --rays 64 --frames 2 --json '{}' --out '{}'",
+        exr().string(), camera().string(), (m_scratch / "e.json").string(), (m_scratch / "out").string()));
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json rows = json::parse(textOf(m_scratch / "e.json"));
     ASSERT_GE(rows.size(), 4u);
     for (const json& row : rows) {
-        for (const char* key : {"method", "preset", "falloff", "reference", "eA", "e5", "bias", "rmse", "p99", "ssim", "milliseconds"}) EXPECT_TRUE(row.contains(key)) << key;
+        for (const char* key : {"method", "preset", "falloff", "reference", "eA", "e5", "bias", "rmse", "p99", "ssim", "milliseconds"})
+            EXPECT_TRUE(row.contains(key)) << key;
         EXPECT_LT(row["eA"], 0.1) << row["preset"];
         EXPECT_GT(row["ssim"], 0.5);
         EXPECT_TRUE(row["milliseconds"]["passes"].contains("hbao.horizons"));
         EXPECT_GE(row["milliseconds"]["all"], row["milliseconds"]["passes"]["hbao.horizons"]);
     }
-    for (const char* name : {"corner.capture.hbao.default.quadratic_2.visibility.exr", "corner.capture.hbao.default.quadratic_2.visibility.png",
-                             "corner.capture.hbao.default.exponential_1.error.screen.png", "corner.capture.reference.exr", "metrics.json", "metrics.md"})
+    for (const char* name :
+         {"corner.capture.hbao.default.quadratic_2.visibility.exr", "corner.capture.hbao.default.quadratic_2.visibility.png",
+          "corner.capture.hbao.default.exponential_1.error.screen.png", "corner.capture.reference.exr", "metrics.json", "metrics.md"})
         EXPECT_TRUE(fs::exists(m_scratch / "out" / name)) << name;
 
     // The references it wrote are references it reads, and judge alike.
-    const Ended again = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --channel screen.quadratic_2 --json '{}'", exr().string(), camera().string(),
-                                            (m_scratch / "out/corner.capture.reference.exr").string(), (m_scratch / "again.json").string()));
+    const Ended again = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --channel screen.quadratic_2 --json '{}'",
+                                            exr().string(), camera().string(), (m_scratch / "out/corner.capture.reference.exr").string(),
+                                            (m_scratch / "again.json").string()));
     ASSERT_EQ(again.code, 0) << again.error;
     const json row = json::parse(textOf(m_scratch / "again.json"))[0];
     EXPECT_NEAR(row["eA"].get<double>(), rows[0]["eA"].get<double>(), 1e-4);
@@ -73,19 +83,19 @@ TEST_F(OnAFrame, deviceDepthWorldNormalsAndOtherNamesAreTheSameFrame) {
     camera["target"] = {4, 2, 3};  // looks along +x
     camera["depth"] = "device";
     camera["normals"] = "world";
-    truth::CapturedFrame frame = cornerFrame();
     truth::Picture picture = truth::readExr(exr());
-    for (float& z : picture.channels[size_t(picture.find("Z") - picture.channels.data())].values) z = frame.near / z;
-    const auto channel = [&](const char* name) -> std::vector<float>& { return const_cast<truth::Picture::Channel*>(picture.find(name))->values; };
-    const std::vector<float> eyeZ = channel("N.Z"), eyeX = channel("N.X");
+    const float near = cornerFrame().near;
+    for (float& z : depthOf(picture)) z = near / z;
+    const std::vector<float> eyeZ = valuesOf(picture, "N.Z"), eyeX = valuesOf(picture, "N.X");
     for (size_t i = 0; i < eyeZ.size(); ++i) {
-        channel("N.X")[i] = -eyeZ[i];  // the camera's -z is the world's +x
-        channel("N.Z")[i] = eyeX[i];
+        valuesOf(picture, "N.X")[i] = -eyeZ[i];  // the camera's -z is the world's +x
+        valuesOf(picture, "N.Z")[i] = eyeX[i];
     }
     truth::writeExr(m_scratch / "dump.exr", picture);
     std::ofstream(m_scratch / "pose.json") << camera.dump();
     const auto errorOf = [&](const fs::path& image, const fs::path& pose) {
-        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --frames 1 --json '{}'", image.string(), pose.string(), (m_scratch / "e.json").string()));
+        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --frames 1 --json '{}'", image.string(), pose.string(),
+                                                (m_scratch / "e.json").string()));
         EXPECT_EQ(ended.code, 0) << ended.error;
         return json::parse(textOf(m_scratch / "e.json"))[0]["eA"].get<double>();
     };
@@ -123,11 +133,11 @@ TEST_F(OnAFrame, ofAnotherSize) {
     expectRefused("corner.json makes 72 x 44");
 }
 TEST_F(OnAFrame, withDepthThatIsNoNumber) {
-    rewrite([](truth::Picture& picture) { picture.channels[size_t(picture.find("Z") - picture.channels.data())].values[5] = std::numeric_limits<float>::quiet_NaN(); });
+    rewrite([](truth::Picture& picture) { depthOf(picture)[5] = std::numeric_limits<float>::quiet_NaN(); });
     expectRefused("pixel (5, 0)");
 }
 TEST_F(OnAFrame, withInfiniteDepth) {
-    rewrite([](truth::Picture& picture) { picture.channels[size_t(picture.find("Z") - picture.channels.data())].values[7] = std::numeric_limits<float>::infinity(); });
+    rewrite([](truth::Picture& picture) { depthOf(picture)[7] = std::numeric_limits<float>::infinity(); });
     expectRefused("pixel (7, 0)");
 }
 TEST_F(OnAFrame, withoutAFieldOfView) {
@@ -154,7 +164,8 @@ TEST_F(OnAFrame, againstAChannelThatIsNotThere) {
 }
 TEST_F(OnAFrame, intoAFolderThatCannotBe) {
     std::ofstream(m_scratch / "file") << "x";
-    const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --json '{}/e.json'", exr().string(), camera().string(), (m_scratch / "file").string()));
+    const Ended ended = runTool(
+        fmt::format("--capture '{}' --camera '{}' --json '{}/e.json'", exr().string(), camera().string(), (m_scratch / "file").string()));
     EXPECT_EQ(ended.code, 2);
     EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
 }
@@ -162,11 +173,12 @@ TEST_F(OnAFrame, intoAFolderThatCannotBe) {
 TEST(OnAScene, whatItCapturesIsWhatItJudged) {
     const Scratch scratch;
     const std::string reference = (scratch / "out/toasters.own.reference.exr").string();
-    const Ended scene = runTool(fmt::format("--scene toasters --size 96x54 --rays 64 --frames 1 --json '{}' --out '{}' --capture-out '{}'", (scratch / "a.json").string(),
-                                            (scratch / "out").string(), (scratch / "frame").string()));
+    const Ended scene = runTool(fmt::format("--scene toasters --size 96x54 --rays 64 --frames 1 --json '{}' --out '{}' --capture-out '{}'",
+                                            (scratch / "a.json").string(), (scratch / "out").string(), (scratch / "frame").string()));
     ASSERT_EQ(scene.code, 0) << scene.error;
-    const Ended capture = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --json '{}'", (scratch / "frame.capture.exr").string(),
-                                              (scratch / "frame.json").string(), reference, (scratch / "b.json").string()));
+    const Ended capture = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --json '{}'",
+                                              (scratch / "frame.capture.exr").string(), (scratch / "frame.json").string(), reference,
+                                              (scratch / "b.json").string()));
     ASSERT_EQ(capture.code, 0) << capture.error;
     const json a = json::parse(textOf(scratch / "a.json"))[0], b = json::parse(textOf(scratch / "b.json"))[0];
     EXPECT_NEAR(a["eA"].get<double>(), b["eA"].get<double>(), 2e-4);
@@ -174,8 +186,9 @@ TEST(OnAScene, whatItCapturesIsWhatItJudged) {
 }
 
 TEST(OnAScene, badNamesAreOneLine) {
-    for (const char* arguments : {"--scene toaster", "--scene no/such.glb", "--scene toasters --camera scene:99", "--scene toasters --camera path:no.json@1", "--scene toasters --camera no.json",
-                                  "--scene toasters --reference no.exr", "--check-baseline no.json"}) {
+    for (const char* arguments :
+         {"--scene toaster", "--scene no/such.glb", "--scene toasters --camera scene:99", "--scene toasters --camera path:no.json@1",
+          "--scene toasters --camera no.json", "--scene toasters --reference no.exr", "--check-baseline no.json"}) {
         const Ended ended = runTool(arguments);
         EXPECT_EQ(ended.code, 2) << arguments << ": " << ended.error;
         EXPECT_EQ(ended.errorLines(), 1u) << arguments << ": " << ended.error;
@@ -185,8 +198,9 @@ TEST(OnAScene, badNamesAreOneLine) {
 TEST(OnAScene, theGateFailsWhenACellWorsens) {
     const Scratch scratch;
     const std::string file = (scratch / "b.json").string();
-    std::ofstream(file) << R"({"size":[64,36],"guard":0.1,"rays":32,"seed":1,"relative":0.03,"absolute":0.0005,"scenes":["toasters"],"cameras":["own"],)"
-                           R"("falloffs":["quadratic:2"],"references":["world"],"cells":[]})";
+    std::ofstream(file)
+        << R"({"size":[64,36],"guard":0.1,"rays":32,"seed":1,"relative":0.03,"absolute":0.0005,"scenes":["toasters"],"cameras":["own"],)"
+           R"("falloffs":["quadratic:2"],"references":["world"],"cells":[]})";
     EXPECT_EQ(runTool(fmt::format("--renew-baseline '{}' --method none", file)).code, 0);
     EXPECT_EQ(runTool(fmt::format("--check-baseline '{}' --method none", file)).code, 0);
     json baseline = json::parse(textOf(file));

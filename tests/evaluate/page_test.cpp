@@ -20,8 +20,9 @@ protected:
     // One small page for all tests here: two frames, two methods' presets, two falloffs, two references.
     static void SetUpTestSuite() {
         s_scratch = new Scratch();
-        s_made = new Ended(runTool(fmt::format("--gallery '{}' --scene toasters --camera own,path:@4 --method none,hbao --preset default,8x4 --size 160x90 --rays 32 --frames 2 --seed 3",
-                                               page().string())));
+        s_made = new Ended(runTool(fmt::format(
+            "--gallery '{}' --scene toasters --camera own,path:@4 --method none,hbao --preset default,8x4 --size 160x90 --rays 32 --frames 2 --seed 3",
+            page().string())));
     }
     static void TearDownTestSuite() {
         delete s_made;
@@ -47,8 +48,10 @@ protected:
     json ask(const std::string& expression) { return m_browser->evaluate(expression); }
     // Scrolls it into view and gives its centre.
     std::pair<double, double> centre(const std::string& selector) {
-        const json at = ask(fmt::format("(() => {{ const e = document.querySelector('{}'); e.scrollIntoView({{block: 'center'}}); const r = e.getBoundingClientRect(); "
-                                        "return [r.x + r.width / 2, r.y + r.height / 2]; }})()", selector));
+        const json at = ask(fmt::format(
+            "(() => {{ const e = document.querySelector('{}'); e.scrollIntoView({{block: 'center'}}); const r = e.getBoundingClientRect(); "
+            "return [r.x + r.width / 2, r.y + r.height / 2]; }})()",
+            selector));
         return {at[0], at[1]};
     }
     void click(const std::string& selector) {
@@ -113,9 +116,11 @@ TEST_F(Gallery, sliderFollowsPointerAndKeys) {
 
 TEST_F(Gallery, choosingAFrameChangesPicturesErrorsAndNumbers) {
     open(1400, 1000);
-    const std::string sum = "new Promise(done => setTimeout(() => { const c = document.getElementById('error'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; "
-                            "let s = 0; for (const v of d) s += v; done(s); }, 300))";
-    const json error = ask(sum), picture = ask("document.getElementById('picture-right').src"), numbers = ask("document.getElementById('numbers').textContent");
+    const std::string sum =
+        "new Promise(done => setTimeout(() => { const c = document.getElementById('error'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; "
+        "let s = 0; for (const v of d) s += v; done(s); }, 300))";
+    const json error = ask(sum), picture = ask("document.getElementById('picture-right').src"),
+               numbers = ask("document.getElementById('numbers').textContent");
     EXPECT_GT(error.get<double>(), 160 * 90 * (255 + 12 * 2 + 16));  // not all black
     ask("(() => { const s = document.getElementById('shot'); s.value = '1'; s.dispatchEvent(new Event('change', {bubbles: true})); })()");
     EXPECT_NE(ask(sum), error);

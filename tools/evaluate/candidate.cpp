@@ -51,7 +51,8 @@ void expectKnown(const std::vector<const ao::MethodInfo*>& methods, const std::v
     for (const std::string& wanted : presets)
         if (!isAll(presets) && std::find(names.begin(), names.end(), wanted) == names.end())
             throw Complaint(fmt::format("--preset {}: {} no such preset; {}, or all", wanted,
-                                        methods.size() == 1 ? std::string(methods[0]->id) + " has" : "the chosen methods have", app::choices(wanted, names)));
+                                        methods.size() == 1 ? std::string(methods[0]->id) + " has" : "the chosen methods have",
+                                        app::choices(wanted, names)));
 }
 
 // Nothing when the method has no such parameter.
@@ -119,7 +120,8 @@ std::string Candidate::fileName() const {
 
 std::string FalloffChoice::fileName() const { return safe(text); }
 
-std::vector<Candidate> candidates(const std::vector<std::string>& methods, const std::vector<std::string>& presets, const std::vector<std::string>& sets) {
+std::vector<Candidate> candidates(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
+                                  const std::vector<std::string>& sets) {
     std::vector<Candidate> list;
     const std::vector<const ao::MethodInfo*> chosen = methodsOf(methods);
     expectKnown(chosen, presets);
@@ -140,8 +142,10 @@ std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts) {
         ao::Falloff falloff;
         if (!ao::parseFalloff(text.c_str(), falloff)) {
             const std::string kind = text.substr(0, text.find(':'));
-            if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) throw Complaint(fmt::format("--falloff {}: no such kind; {}", text, app::choices(kind, kinds)));
-            throw Complaint(fmt::format("--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
+            if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+                throw Complaint(fmt::format("--falloff {}: no such kind; {}", text, app::choices(kind, kinds)));
+            throw Complaint(
+                fmt::format("--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
         }
         // One spelling whatever was typed: cells and channels are found by it.
         const std::string kind = kKinds[size_t(falloff.kind)];

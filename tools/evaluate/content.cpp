@@ -64,8 +64,9 @@ SceneFile findScene(const std::string& nameOrPath) {
     std::error_code ignored;
     if (fs::is_regular_file(nameOrPath, ignored)) return {fs::path(nameOrPath).stem().string(), nameOrPath, {}, {}, {}};
     const bool path = nameOrPath.find('/') != std::string::npos || nameOrPath.find(".gl") != std::string::npos;
-    throw Complaint(path ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", nameOrPath, fmt::join(names, ", "))
-                         : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", nameOrPath, app::choices(nameOrPath, names)));
+    throw Complaint(
+        path ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", nameOrPath, fmt::join(names, ", "))
+             : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", nameOrPath, app::choices(nameOrPath, names)));
 }
 
 }  // namespace obscura::evaluate

@@ -8,7 +8,9 @@ namespace obscura::evaluate {
 
 namespace {
 
-struct Stop { float at, r, g, b; };
+struct Stop {
+    float at, r, g, b;
+};
 constexpr Stop kDark[] = {{0.0f, 12, 12, 16}, {0.5f, 32, 96, 200}, {1.0f, 190, 225, 255}};
 constexpr Stop kBright[] = {{0.0f, 12, 12, 16}, {0.5f, 208, 88, 16}, {1.0f, 255, 226, 170}};
 

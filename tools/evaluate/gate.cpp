@@ -53,8 +53,9 @@ std::map<Cell, float> measureCells(const Options& options) {
             const JudgedBy& reference = result.references[row.reference];
             cells[{candidate.info().id, candidate.preset, result.scene, result.camera, reference.falloff, reference.kind}] = row.whole().raw.eA;
         }
-        fmt::print("{} {}: {} cells; frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s\n", result.scene, result.camera, result.rows.size(), result.seconds.frame,
-                   result.seconds.references, result.referencesFromCache ? " (cached)" : "", result.seconds.methods, result.seconds.metrics);
+        fmt::print("{} {}: {} cells; frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s\n", result.scene, result.camera,
+                   result.rows.size(), result.seconds.frame, result.seconds.references, result.referencesFromCache ? " (cached)" : "",
+                   result.seconds.methods, result.seconds.metrics);
     });
     return cells;
 }
@@ -85,13 +86,14 @@ Baseline readBaseline(const fs::path& file) {
     baseline.falloffs = texts(root.at("falloffs"));
     baseline.references = texts(root.at("references"));
     for (size_t i = 0; i < baseline.references.size(); ++i)
-        if (baseline.references[i] != "world" && baseline.references[i] != "screen") root.at("references").at(i).fail("must be \"world\" or \"screen\"");
+        if (baseline.references[i] != "world" && baseline.references[i] != "screen")
+            root.at("references").at(i).fail("must be \"world\" or \"screen\"");
     const scene::JsonAt cells = root.at("cells").expectArray();
     for (size_t i = 0; i < cells.size(); ++i) {
         const scene::JsonAt at = cells.at(i);
         at.only({"method", "preset", "scene", "camera", "falloff", "reference", "eA"});
-        baseline.cells[{at.at("method").text(), at.at("preset").text(), at.at("scene").text(), at.at("camera").text(), at.at("falloff").text(), at.at("reference").text()}] =
-            float(at.at("eA").number(0.0, 1.0));
+        baseline.cells[{at.at("method").text(), at.at("preset").text(), at.at("scene").text(), at.at("camera").text(), at.at("falloff").text(),
+                        at.at("reference").text()}] = float(at.at("eA").number(0.0, 1.0));
     }
     return baseline;
 }
@@ -99,7 +101,8 @@ Baseline readBaseline(const fs::path& file) {
 std::string baselineText(const Baseline& baseline) {
     // Written by hand, so that a cell is a line and a renewal reads well as a difference.
     Json head;
-    head["about"] = "Mean absolute error of visibility. A cell may not worsen by more than `relative` of itself and `absolute`. Renew: obscura-evaluate --renew-baseline THIS";
+    head["about"] =
+        "Mean absolute error of visibility. A cell may not worsen by more than `relative` of itself and `absolute`. Renew: obscura-evaluate --renew-baseline THIS";
     head["size"] = {baseline.size.x, baseline.size.y};
     head["guard"] = std::stod(fmt::format("{:.6g}", baseline.guard));
     head["rays"] = baseline.rays;
@@ -115,8 +118,13 @@ std::string baselineText(const Baseline& baseline) {
     text += "  \"cells\": [";
     const char* separator = "\n";
     for (const auto& [cell, eA] : baseline.cells) {
-        const Json line = {{"method", cell.method}, {"preset", cell.preset}, {"scene", cell.scene}, {"camera", cell.camera},
-                           {"falloff", cell.falloff}, {"reference", cell.reference}, {"eA", std::stod(fmt::format("{:.5f}", eA))}};
+        const Json line = {{"method", cell.method},
+                           {"preset", cell.preset},
+                           {"scene", cell.scene},
+                           {"camera", cell.camera},
+                           {"falloff", cell.falloff},
+                           {"reference", cell.reference},
+                           {"eA", std::stod(fmt::format("{:.5f}", eA))}};
         text += separator + ("    " + line.dump());
         separator = ",\n";
     }
@@ -132,7 +140,8 @@ Verdict judge(const Baseline& baseline, const std::map<Cell, float>& measured) {
             continue;
         }
         const float change = eA - held->second, allowed = std::max(baseline.absolute, baseline.relative * held->second);
-        const std::string line = fmt::format("{}: eA {:.5f}, was {:.5f} ({:+.1f} %)", cell.name(), eA, held->second, held->second > 0.0f ? 100.0f * change / held->second : 0.0f);
+        const std::string line = fmt::format("{}: eA {:.5f}, was {:.5f} ({:+.1f} %)", cell.name(), eA, held->second,
+                                             held->second > 0.0f ? 100.0f * change / held->second : 0.0f);
         if (change > allowed) verdict.worse.push_back(line);
         if (change < -allowed) verdict.better.push_back(line);
     }
@@ -153,7 +162,8 @@ int checkBaseline(const Options& wanted) {
     if (wanted.candidates.size() == candidates({"all"}, {"all"}, {}).size()) print("in the baseline only:", verdict.gone);
     const std::string renew = fmt::format("obscura-evaluate --renew-baseline {}", wanted.baseline.string());
     if (!verdict.passes())
-        fmt::print("failed: {} of {} cells are worse, {} are not held yet. If that is meant to be so: {}\n", verdict.worse.size(), measured.size(), verdict.missing.size(), renew);
+        fmt::print("failed: {} of {} cells are worse, {} are not held yet. If that is meant to be so: {}\n", verdict.worse.size(), measured.size(),
+                   verdict.missing.size(), renew);
     else fmt::print("passed: {} cells, none worse by more than {:g} % and {:g}\n", measured.size(), 100.0f * baseline.relative, baseline.absolute);
     return verdict.passes() ? 0 : app::kFailed;
 }

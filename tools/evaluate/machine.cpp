@@ -75,7 +75,9 @@ Machine::~Machine() {
 void Machine::expect(gpu::Status status, const char* doing) const {
     if (status == gpu::Status::ok) return;
     const char* advice = status == gpu::Status::outOfMemory ? "; try a smaller --size" : "";
-    throw Complaint(fmt::format("{}: {} while {}{}{}", deviceName(), gpu::name(status), doing, m_messages.empty() ? "" : ": " + m_messages.back(), advice), app::kFailed);
+    throw Complaint(
+        fmt::format("{}: {} while {}{}{}", deviceName(), gpu::name(status), doing, m_messages.empty() ? "" : ": " + m_messages.back(), advice),
+        app::kFailed);
 }
 
 render::Renderer& Machine::renderer() {

@@ -21,9 +21,23 @@ void expectOutputs(const Options& options) {
     if (!options.out.empty()) app::expectFolder(options.out);
 }
 
+// Takes a folder that was made for the results away again when there are none.
+class MadeFolder {
+public:
+    explicit MadeFolder(const fs::path& folder) : m_folder(folder.empty() || fs::exists(folder) ? fs::path() : folder) {}
+    ~MadeFolder() {
+        std::error_code ignored;
+        if (!m_folder.empty()) fs::remove(m_folder, ignored);  // refuses one that holds anything
+    }
+
+private:
+    fs::path m_folder;
+};
+
 int evaluateShots(const Options& options) {
     expectScenes(options);
     expectReferenceFile(options);
+    const MadeFolder made(options.out);
     expectOutputs(options);
     Machine machine({options.device, options.validation, options.verbose});
     const About about{machine.deviceName(), options.frames, options.warmUp};
@@ -70,8 +84,6 @@ int main(int argc, char** argv) {
     } catch (const scene::Error& error) {
         std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(error.what()).c_str());
         return app::kBadInput;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(error.what()).c_str());
-    }
+    } catch (const std::exception& error) { std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(error.what()).c_str()); }
     return app::kFailed;
 }

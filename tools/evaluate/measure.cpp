@@ -16,7 +16,8 @@ namespace {
 
 truth::Plane planeOf(const std::vector<std::byte>& halves, glm::uvec2 size, const std::string& what) {
     truth::Plane plane(size.x, size.y);
-    if (halves.size() != plane.pixels() * 2) throw app::Complaint(fmt::format("{}: its visibility has another size than the frame", what), app::kFailed);
+    if (halves.size() != plane.pixels() * 2)
+        throw app::Complaint(fmt::format("{}: its visibility has another size than the frame", what), app::kFailed);
     for (size_t i = 0; i < plane.pixels(); ++i) {
         uint16_t half;
         std::memcpy(&half, halves.data() + 2 * i, 2);
@@ -93,7 +94,8 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
         for (size_t d = 0; d < result.drawn.size(); ++d) {
             if (options.falloffs[result.drawn[d].falloff].text != result.references[r].falloff) continue;
             const truth::Plane &visibility = result.drawn[d].visibility, &reference = result.references[r].visibility;
-            result.rows.push_back({d, r, options.errorsOnly ? meanError(visibility, reference, valid) : truth::compare(visibility, reference, regions)});
+            result.rows.push_back(
+                {d, r, options.errorsOnly ? meanError(visibility, reference, valid) : truth::compare(visibility, reference, regions)});
         }
     }
     result.seconds.metrics = (app::now() - begun) * 1e-3;

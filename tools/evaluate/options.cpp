@@ -43,11 +43,13 @@ ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::st
     for (const std::string& word : words) {
         if (word == "world") choice.world = true;
         else if (word == "screen") choice.screen = true;
-        else if (fs::path(word).extension() != ".exr") throw Complaint(fmt::format("--reference {}: {}, or an EXR file", word, app::choices(word, {"world", "screen"})));
+        else if (fs::path(word).extension() != ".exr")
+            throw Complaint(fmt::format("--reference {}: {}, or an EXR file", word, app::choices(word, {"world", "screen"})));
         else if (!choice.file.empty()) throw Complaint(fmt::format("--reference {}: one file at a time", word));
         else choice.file = word;
     }
-    if (!channel.empty() && choice.file.empty()) throw Complaint(fmt::format("--channel {}: names a channel of an EXR file; give one with --reference FILE.exr", channel));
+    if (!channel.empty() && choice.file.empty())
+        throw Complaint(fmt::format("--channel {}: names a channel of an EXR file; give one with --reference FILE.exr", channel));
     return choice;
 }
 
@@ -85,10 +87,13 @@ void expectTogether(const Options& options, bool hasSceneOptions) {
         return;
     }
     if (options.capture.empty() != options.captureCamera.empty())
-        throw Complaint(options.capture.empty() ? "--camera: FILE.json of a captured frame needs --capture FRAME.exr, one of a scene --scene NAME"
-                                                : fmt::format("--capture {}: needs --camera FILE.json with its field of view and guard band", options.capture.string()));
-    if (!options.capture.empty() && hasSceneOptions) throw Complaint("--capture: a captured frame has its own scene, size and time; leave out --scene, --size, --time, --guard and --skip-masked");
-    if (options.capture.empty() && options.scenes.empty()) throw Complaint("nothing to look at: give --scene NAME, or --capture FRAME.exr with --camera FRAME.json");
+        throw Complaint(options.capture.empty()
+                            ? "--camera: FILE.json of a captured frame needs --capture FRAME.exr, one of a scene --scene NAME"
+                            : fmt::format("--capture {}: needs --camera FILE.json with its field of view and guard band", options.capture.string()));
+    if (!options.capture.empty() && hasSceneOptions)
+        throw Complaint("--capture: a captured frame has its own scene, size and time; leave out --scene, --size, --time, --guard and --skip-masked");
+    if (options.capture.empty() && options.scenes.empty())
+        throw Complaint("nothing to look at: give --scene NAME, or --capture FRAME.exr with --camera FRAME.json");
     if (!options.capture.empty() && options.reference.world)
         throw Complaint("--reference world: a captured frame has no triangles; give screen, or a rendered reference as FILE.exr");
 }
@@ -123,63 +128,81 @@ CameraChoice cameraOf(const std::string& text) {
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
-    CLI::App cli{"Measures ambient-obscurance methods against ray-traced references: error tables, pictures, pages, and a gate on accuracy.", "obscura-evaluate"};
+    CLI::App cli{"Measures ambient-obscurance methods against ray-traced references: error tables, pictures, pages, and a gate on accuracy.",
+                 "obscura-evaluate"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
-    cli.footer("Examples:\n"
-               "  obscura-evaluate --scene sponza --method hbao --preset all --reference world,screen --out out/hbao\n"
-               "  obscura-evaluate --capture frame.exr --camera frame.json --method all --json errors.json\n"
-               "  obscura-evaluate --gallery gallery.html\n"
-               "  obscura-evaluate --renew-baseline tests/accuracy/baseline.json");
-    cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    cli.footer(
+        "Examples:\n"
+        "  obscura-evaluate --scene sponza --method hbao --preset all --reference world,screen --out out/hbao\n"
+        "  obscura-evaluate --capture frame.exr --camera frame.json --method all --json errors.json\n"
+        "  obscura-evaluate --gallery gallery.html\n"
+        "  obscura-evaluate --renew-baseline tests/accuracy/baseline.json");
+    cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     std::vector<std::string> methods{"hbao"}, presets{"default"}, falloffTexts, cameras, references, sets;
     std::string size, channel, page, check, renew, capture;
     float time = 0.0f;
     bool list = false, scenesListed = false, noCache = false;
-    const auto takeAll = [](CLI::Option* option) { return option->delimiter(',')->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll); };
+    const auto takeAll = [](CLI::Option* option) {
+        return option->delimiter(',')->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    };
 
-    const char* kFrame = "What is looked at";
-    cli.add_option("--capture", capture, "EXR of a captured frame: Z, and N.X N.Y N.Z where there are normals; needs --camera FILE.json")->group(kFrame);
-    auto* scene = takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas")->group(kFrame));
-    takeAll(cli.add_option("--camera", cameras, "own (the scene's usual view), scene:N, path:FILE@SECONDS, path:@SECONDS (its own flythrough), FILE.json; several with commas")->group(kFrame));
-    auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (0; on a flythrough its own time)")->group(kFrame);
-    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (640x360; --gallery 480x270)")->group(kFrame);
-    auto* guard = cli.add_option("--guard", options.guard, "Guard band, fraction of each side")->group(kFrame)->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
-    auto* masked = cli.add_flag("--skip-masked", options.skipMasked, "Leave alpha-masked surfaces out of frame and reference, as stored references do")->group(kFrame);
+    cli.option_defaults()->group("What is looked at");
+    cli.add_option("--capture", capture, "EXR of a captured frame: Z, and N.X N.Y N.Z where there are normals; needs --camera FILE.json");
+    auto* scene = takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas"));
+    takeAll(cli.add_option(
+        "--camera", cameras,
+        "own (the scene's usual view), scene:N, path:FILE@SECONDS, path:@SECONDS (its own flythrough), FILE.json; several with commas"));
+    auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (0; on a flythrough its own time)");
+    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (640x360; --gallery 480x270)");
+    auto* guard = cli.add_option("--guard", options.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
+    auto* masked = cli.add_flag("--skip-masked", options.skipMasked,
+                                "Leave alpha-masked surfaces out of frame and reference, as stored references do");
 
-    const char* kJudged = "What is judged";
-    auto* methodOption = takeAll(cli.add_option("--method", methods, "Methods by id, or all")->group(kJudged)->capture_default_str());
-    auto* presetOption = takeAll(cli.add_option("--preset", presets, "Presets of them, or all")->group(kJudged)->capture_default_str());
+    cli.option_defaults()->group("What is judged");
+    auto* methodOption = takeAll(cli.add_option("--method", methods, "Methods by id, or all")->capture_default_str());
+    auto* presetOption = takeAll(cli.add_option("--preset", presets, "Presets of them, or all")->capture_default_str());
     cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
-        ->group(kJudged)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    takeAll(cli.add_option("--falloff", falloffTexts, "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kJudged));
-    auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported")->group(kJudged)->check(CLI::Range(1u, 100000u))->capture_default_str();
-    cli.add_option("--warm-up", options.warmUp, "Frames before those")->group(kJudged)->check(CLI::Range(0u, 1000u))->capture_default_str();
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    takeAll(cli.add_option("--falloff", falloffTexts,
+                           "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
+    auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported")
+                       ->check(CLI::Range(1u, 100000u))
+                       ->capture_default_str();
+    cli.add_option("--warm-up", options.warmUp, "Frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
 
-    const char* kTruth = "Against what";
-    takeAll(cli.add_option("--reference", references, "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance")->group(kTruth));
-    cli.add_option("--channel", channel, "Channel of that EXR (the one named after the falloff: world.quadratic_2)")->group(kTruth);
-    cli.add_option("--rays", options.rays.rays, "Rays a pixel at most")->group(kTruth)->check(CLI::Range(32u, 1048576u))->capture_default_str();
-    cli.add_option("--target-error", options.rays.targetError, "Standard error at which a pixel stops; 0 casts all rays")->group(kTruth)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
-    cli.add_option("--seed", options.rays.seed, "Of the rays")->group(kTruth)->capture_default_str();
-    cli.add_flag("--no-cache", noCache, "Render references anew, keep none (they lie in the user's cache folder)")->group(kTruth);
+    cli.option_defaults()->group("Against what");
+    takeAll(cli.add_option("--reference", references,
+                           "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance"));
+    cli.add_option("--channel", channel, "Channel of that EXR (the one named after the falloff: world.quadratic_2)");
+    cli.add_option("--rays", options.rays.rays, "Rays a pixel at most")->check(CLI::Range(32u, 1048576u))->capture_default_str();
+    cli.add_option("--target-error", options.rays.targetError, "Standard error at which a pixel stops; 0 casts all rays")
+        ->check(CLI::Range(0.0f, 1.0f))
+        ->capture_default_str();
+    cli.add_option("--seed", options.rays.seed, "Of the rays")->capture_default_str();
+    cli.add_flag("--no-cache", noCache, "Render references anew, keep none (they lie in the user's cache folder)");
 
-    const char* kOut = "What comes out";
-    cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference")->group(kOut);
-    cli.add_option("--out", options.out, "Folder for visibility (EXR, PNG), error pictures, references, metrics.json and metrics.md")->group(kOut);
-    cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json, for others")->group(kOut);
-    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (gallery.html)")->group(kOut)->expected(0, 1)->default_str("gallery.html");
-    auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's error is worse than this file says")->group(kOut);
-    auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's cells when methods are named)")->group(kOut);
+    cli.option_defaults()->group("What comes out");
+    cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference");
+    cli.add_option("--out", options.out, "Folder for visibility (EXR, PNG), error pictures, references, metrics.json and metrics.md");
+    cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json, for others");
+    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (gallery.html)")
+                        ->expected(0, 1)
+                        ->default_str("gallery.html");
+    auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's error is worse than this file says");
+    auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's cells when methods are named)");
     gallery->excludes(checkOption)->excludes(renewOption);
     checkOption->excludes(renewOption);
 
-    const char* kDevice = "Device";
-    cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use")->group(kDevice);
-    cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync")->group(kDevice)->check(CLI::IsMember({"off", "core", "sync"}))->capture_default_str();
-    cli.add_flag("--verbose", options.verbose, "Print what the device and the loader have to say")->group(kDevice);
-    cli.add_flag("--list-methods", list, "Print the methods and their presets")->group(kDevice);
-    cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and where they are found")->group(kDevice);
+    cli.option_defaults()->group("Device");
+    cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use");
+    cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync")
+        ->check(CLI::IsMember({"off", "core", "sync"}))
+        ->capture_default_str();
+    cli.add_flag("--verbose", options.verbose, "Print what the device and the loader have to say");
+    cli.add_flag("--list-methods", list, "Print the methods and their presets");
+    cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and where they are found");
 
     try {
         cli.parse(argc, argv);
@@ -189,9 +212,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     } catch (const CLI::CallForVersion& version) {
         std::puts(version.what());
         return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        complain(cli, error);
-    }
+    } catch (const CLI::ParseError& error) { complain(cli, error); }
     if (list || scenesListed) {
         list ? listMethods() : listScenes();
         return std::nullopt;

@@ -7,7 +7,8 @@ namespace obscura::evaluate {
 namespace {
 
 std::string shotTitle(const ShotResult& shot) {
-    return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px", shot.scene, shot.camera, shot.time, shot.size.x, shot.size.y, shot.guard.x, shot.guard.y);
+    return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px", shot.scene, shot.camera, shot.time, shot.size.x, shot.size.y,
+                       shot.guard.x, shot.guard.y);
 }
 
 std::string secondsLine(const ShotResult& shot) {
@@ -20,7 +21,8 @@ std::string referenceLines(const ShotResult& shot, const char* bullet) {
     std::string text;
     for (const JudgedBy& reference : shot.references)
         if (reference.rays > 0.0f)
-            text += fmt::format("{}{} {}: {:.0f} rays a pixel, standard error {:.4f} (means)\n", bullet, reference.kind, reference.falloff, reference.rays, reference.error);
+            text += fmt::format("{}{} {}: {:.0f} rays a pixel, standard error {:.4f} (means)\n", bullet, reference.kind, reference.falloff,
+                                reference.rays, reference.error);
     return text;
 }
 
@@ -36,24 +38,29 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
     for (const ShotResult& shot : shots) {
         text += fmt::format("\n## {}\n\n", shotTitle(shot));
         if (!shot.remark.empty()) text += shot.remark + ".\n\n";
-        text += "| method | preset | falloff | reference | eA | e<5% | bias | rmse | p99 | ssim | flip | g* | eA g* | ms |\n"
-                "|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+        text +=
+            "| method | preset | falloff | reference | eA | e<5% | bias | rmse | p99 | ssim | flip | g* | eA g* | ms |\n"
+            "|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
             const Candidate& candidate = options.candidates[drawn.candidate];
             const truth::Metrics& m = row.whole();
-            text += fmt::format("| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} | {:.4f} | {:.2f} | {:.4f} | {:.2f} |\n", candidate.info().id,
-                                candidate.preset, candidate.settings.empty() ? "" : " ", fmt::join(candidate.settings, " "), shot.references[row.reference].falloff,
-                                shot.references[row.reference].kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim, m.flipMean, m.gamma, m.adjusted.eA, drawn.milliseconds);
+            text += fmt::format(
+                "| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} | {:.4f} | {:.2f} | {:.4f} | {:.2f} |\n",
+                candidate.info().id, candidate.preset, candidate.settings.empty() ? "" : " ", fmt::join(candidate.settings, " "),
+                shot.references[row.reference].falloff, shot.references[row.reference].kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99,
+                m.ssim, m.flipMean, m.gamma, m.adjusted.eA, drawn.milliseconds);
         }
-        text += "\n| method | preset | falloff | reference | region | pixels | eA | e<5% | bias | rmse | p99 | ssim |\n|---|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
+        text +=
+            "\n| method | preset | falloff | reference | region | pixels | eA | e<5% | bias | rmse | p99 | ssim |\n|---|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
         for (const Row& row : shot.rows)
             for (size_t i = 1; i < row.regions.size(); ++i) {
                 const truth::Metrics& m = row.regions[i].metrics;
                 const Candidate& candidate = options.candidates[shot.drawn[row.drawn].candidate];
-                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} |\n", candidate.info().id, candidate.preset,
-                                    shot.references[row.reference].falloff, shot.references[row.reference].kind, truth::kRegionNames[size_t(row.regions[i].region)], m.pixels,
-                                    m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim);
+                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} |\n", candidate.info().id,
+                                    candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
+                                    truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse,
+                                    m.raw.p99, m.ssim);
             }
         text += "\n| method | preset | falloff | pass | ms |\n|---|---|---|---|--:|\n";
         for (const Drawn& drawn : shot.drawn) {
@@ -78,14 +85,15 @@ std::string textTable(const std::vector<ShotResult>& shots, const Options& optio
             kind = std::max(kind, shot.references[row.reference].kind.size());
             falloff = std::max(falloff, shot.references[row.reference].falloff.size());
         }
-        text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>7} {:>6} {:>8} {:>7} {:>6} {:>7} {:>7} {:>8}\n", "method", name, "falloff", falloff, "reference", kind, "eA", "e<5%", "bias",
-                            "rmse", "p99", "ssim", "flip", "ms");
+        text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>7} {:>6} {:>8} {:>7} {:>6} {:>7} {:>7} {:>8}\n", "method", name, "falloff", falloff,
+                            "reference", kind, "eA", "e<5%", "bias", "rmse", "p99", "ssim", "flip", "ms");
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
             const JudgedBy& reference = shot.references[row.reference];
             const truth::Metrics& m = row.whole();
-            text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:7.4f} {:7.4f} {:8.2f}\n", options.candidates[drawn.candidate].label(), name,
-                                reference.falloff, falloff, reference.kind, kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim, m.flipMean, drawn.milliseconds);
+            text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:7.4f} {:7.4f} {:8.2f}\n",
+                                options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, m.raw.eA,
+                                m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim, m.flipMean, drawn.milliseconds);
         }
         text += referenceLines(shot, "  ") + "  " + secondsLine(shot) + "\n\n";
     }

@@ -75,7 +75,8 @@ gpu::Image upload(gpu::Device& device, VkFormat format, const glm::uvec2& size, 
     gpu::Image image;
     gpu::Status status = gpu::Image::create(device, {format, size.x, size.y, 1, 1, usage}, name, image);
     if (status == gpu::Status::ok) status = gpu::upload(device, image, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    if (status != gpu::Status::ok) throw Complaint(fmt::format("{}: {} while uploading the captured frame", device.caps().deviceName, gpu::name(status)), app::kFailed);
+    if (status != gpu::Status::ok)
+        throw Complaint(fmt::format("{}: {} while uploading the captured frame", device.caps().deviceName, gpu::name(status)), app::kFailed);
     return image;
 }
 
@@ -120,7 +121,8 @@ void captureShot(Machine& machine, const Options& options, const TakeShot& take)
     constexpr uint32_t kNotCaptured = ao::kMotion | ao::kLayers | ao::kVolume;
     for (const Candidate& candidate : options.candidates)
         if (candidate.info().needs & kNotCaptured & ~uint32_t(ao::kMotion))
-            throw Complaint(fmt::format("--method {}: needs what a captured frame does not hold (layers or a volume); judge it on a --scene", candidate.info().id));
+            throw Complaint(fmt::format("--method {}: needs what a captured frame does not hold (layers or a volume); judge it on a --scene",
+                                        candidate.info().id));
     shot.library = &machine.library();
     const std::shared_ptr<OnGpu> images = onGpu(machine.device(), shot.frame);
     shot.add = [&library = machine.library(), images](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {

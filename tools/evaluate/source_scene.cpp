@@ -40,7 +40,8 @@ std::optional<scene::Camera> cameraFor(const CameraChoice& choice, const SceneFi
             const auto path = pathFile(choice, file);
             if (path) return scene::loadCameraPath(*path).at(choice.at);
             if (usual) return std::nullopt;
-            throw Complaint(choice.file.empty() ? fmt::format("--camera {}: {} has no flythrough of its own; name one: path:FILE.json@SECONDS", choice.text, file.name)
+            throw Complaint(choice.file.empty() ? fmt::format("--camera {}: {} has no flythrough of its own; name one: path:FILE.json@SECONDS",
+                                                              choice.text, file.name)
                                                 : fmt::format("--camera {}: no such file", choice.text));
         }
         case CameraChoice::Kind::file: {
@@ -53,8 +54,9 @@ std::optional<scene::Camera> cameraFor(const CameraChoice& choice, const SceneFi
             const scene::Instance& first = world->instances().front();
             const int count = scene::lensCount(*first.model);
             if (choice.lens >= count)
-                throw Complaint(fmt::format("--camera {}: {} has {} cameras; {}", choice.text, file.name, count,
-                                            count ? fmt::format("write scene:0 to scene:{}", count - 1) : "write own, path:FILE.json@SECONDS, or FILE.json"));
+                throw Complaint(
+                    fmt::format("--camera {}: {} has {} cameras; {}", choice.text, file.name, count,
+                                count ? fmt::format("write scene:0 to scene:{}", count - 1) : "write own, path:FILE.json@SECONDS, or FILE.json"));
             return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, time + first.timeOffset), choice.lens);
         }
         case CameraChoice::Kind::own: break;
@@ -62,7 +64,8 @@ std::optional<scene::Camera> cameraFor(const CameraChoice& choice, const SceneFi
     if (file.camera) return file.camera;
     if (!world) return scene::Camera();
     const scene::Instance& first = world->instances().front();
-    if (scene::lensCount(*first.model) > 0) return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, time + first.timeOffset), 0);
+    if (scene::lensCount(*first.model) > 0)
+        return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, time + first.timeOffset), 0);
     return scene::frame(scene::bounds(*world, time));
 }
 
@@ -130,7 +133,8 @@ void sceneShots(Machine& machine, const Options& options, const TakeShot& take) 
         auto world = std::make_shared<scene::World>();
         world->add({.model = scene::loadGltf(file.file)});
         if (world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", name));
-        if (machine.renderer().load(*world) != gpu::Status::ok) throw Complaint(fmt::format("{}: cannot be uploaded to {}", file.file.string(), machine.deviceName()), app::kFailed);
+        if (machine.renderer().load(*world) != gpu::Status::ok)
+            throw Complaint(fmt::format("{}: cannot be uploaded to {}", file.file.string(), machine.deviceName()), app::kFailed);
         for (const CameraChoice& choice : options.cameras) {
             Shot shot;
             shot.scene = file.name;
@@ -143,7 +147,8 @@ void sceneShots(Machine& machine, const Options& options, const TakeShot& take) 
             shot.world = world;
             shot.skipMasked = options.skipMasked;
             shot.library = &machine.renderer().library();
-            shot.add = [&renderer = machine.renderer(), world, wanted](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {
+            shot.add = [&renderer = machine.renderer(), world, wanted](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff,
+                                                                       uint32_t index) {
                 render::FrameOptions frame = wanted;
                 frame.method = &candidate.values;
                 frame.falloff = falloff;

@@ -27,6 +27,7 @@ function svg(tag, attributes = {}, ...children) {
 }
 const unique = list => [...new Set(list)];
 const fixed = (value, digits) => Number.isFinite(value) ? value.toFixed(digits) : "";
+const signed = (value, digits) => (value >= 0 ? "+" : "") + fixed(value, digits);
 const milliseconds = value => value >= 100 ? value.toFixed(0) : value >= 10 ? value.toFixed(1) : value >= 0.1 ? value.toFixed(2) : value.toPrecision(2);
 const shot = () => data.shots[state.shot];
 const shotTitle = s => `${s.scene}, ${s.camera}${s.time ? ` at ${+s.time.toFixed(2)} s` : ""}`;
@@ -90,7 +91,8 @@ function fill(select, options, chosen) {
 }
 function choose(change) {
   Object.assign(state, change);
-  const s = shot(), falloffs = unique(s.references.map(r => r.falloff)), kinds = falloff => unique(s.references.filter(r => r.falloff === falloff).map(r => r.kind));
+  const s = shot(), falloffs = unique(s.references.map(r => r.falloff));
+  const kinds = falloff => unique(s.references.filter(r => r.falloff === falloff).map(r => r.kind));
   if (!falloffs.includes(state.falloff)) state.falloff = falloffs[0];
   if (!kinds(state.falloff).includes(state.reference)) state.reference = kinds(state.falloff)[0];
   const labels = unique(s.drawn.map(d => d.label));
@@ -121,8 +123,10 @@ function drawCompare() {
   $("error-title").textContent = row ? `${label} minus ${state.reference} reference` : "Choose a method on either side";
   $("error").setAttribute("aria-label", `Error picture of ${titleOf(label)}`);
   if (pictureOf(label)) paintError($("error"), pictureOf(label), reference().picture);
-  const numbers = row ? [["eA", fixed(row.eA, 4)], ["e<5%", `${fixed(100 * row.e5, 1)} %`], ["bias", (row.bias >= 0 ? "+" : "") + fixed(row.bias, 4)], ["rmse", fixed(row.rmse, 4)],
-    ["p99", fixed(row.p99, 3)], ["SSIM", fixed(row.ssim, 4)], ["FLIP", fixed(row.flip, 4)], ["g*", fixed(row.gamma, 2)], ["ms", milliseconds(row.milliseconds.all)]] : [];
+  const numbers = row ? [
+    ["eA", fixed(row.eA, 4)], ["e<5%", `${fixed(100 * row.e5, 1)} %`], ["bias", signed(row.bias, 4)], ["rmse", fixed(row.rmse, 4)], ["p99", fixed(row.p99, 3)],
+    ["SSIM", fixed(row.ssim, 4)], ["FLIP", fixed(row.flip, 4)], ["g*", fixed(row.gamma, 2)], ["ms", milliseconds(row.milliseconds.all)],
+  ] : [];
   $("numbers").replaceChildren(...numbers.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
   const ramp = $("ramp").getContext("2d");
   for (let i = 0; i < 256; ++i) {
@@ -137,14 +141,19 @@ function drawGrid() {
   $("show-pictures").setAttribute("aria-pressed", String(!errors));
   $("show-errors").setAttribute("aria-pressed", String(errors));
   const card = (name, picture, what) => {
-    const view = errors && name !== REFERENCE ? element("canvas", {width: shot().size[0], height: shot().size[1]}) : element("img", {src: picture, alt: "", loading: "lazy", width: shot().size[0], height: shot().size[1]});
-    if (view.tagName === "CANVAS") paintError(view, picture, reference().picture);
-    return element("button", {type: "button", "aria-pressed": String(state.right === name), "data-name": name, onclick: () => choose({right: name, left: name === REFERENCE ? state.left : REFERENCE})},
+    const [width, height] = shot().size, painted = errors && name !== REFERENCE;
+    const view = painted ? element("canvas", {width, height}) : element("img", {src: picture, alt: "", loading: "lazy", width, height});
+    if (painted) paintError(view, picture, reference().picture);
+    const onclick = () => choose({right: name, left: name === REFERENCE ? state.left : REFERENCE});
+    return element("button", {type: "button", "aria-pressed": String(state.right === name), "data-name": name, onclick},
       view, element("span", {class: "name"}, titleOf(name)), element("span", {class: "what"}, what));
   };
   const r = reference();
   const cards = [card(REFERENCE, r.picture, r.rays ? `${r.rays.toFixed(0)} rays, ±${fixed(r.error, 4)}` : "from a file")];
-  for (const row of rowsHere()) cards.push(card(row.label, drawnOf(row.label).picture, `eA ${fixed(row.eA, 4)} · SSIM ${fixed(row.ssim, 3)} · ${milliseconds(row.milliseconds.all)} ms`));
+  for (const row of rowsHere()) {
+    const what = `eA ${fixed(row.eA, 4)} · SSIM ${fixed(row.ssim, 3)} · ${milliseconds(row.milliseconds.all)} ms`;
+    cards.push(card(row.label, drawnOf(row.label).picture, what));
+  }
   $("grid").replaceChildren(...cards);
 }
 
@@ -160,10 +169,13 @@ function short(text, room = 22) { return text.length > room ? text.slice(0, room
 function rowsChart(rows, maximum, unit, drawRow) {
   const height = rows.length * LINE + 30, x = v => LEFT + (WIDTH - LEFT - 64) * v / maximum, scale = axis(maximum, x, unit);
   const root = svg("svg", {viewBox: `0 0 ${WIDTH} ${height}`, role: "img"});
-  for (const v of scale.ticks) root.append(svg("line", {class: "axis", x1: x(v), x2: x(v), y1: 0, y2: height - 24}), svg("text", {class: "soft", x: x(v), y: height - 8, "text-anchor": "middle"}, scale.text(v)));
+  for (const v of scale.ticks)
+    root.append(svg("line", {class: "axis", x1: x(v), x2: x(v), y1: 0, y2: height - 24}),
+      svg("text", {class: "soft", x: x(v), y: height - 8, "text-anchor": "middle"}, scale.text(v)));
   rows.forEach((row, i) => {
     const y = i * LINE;
-    const name = svg("text", {x: LEFT - 8, y: y + 16, "text-anchor": "end", class: row.label === state.right ? "mark chosen" : "mark", onclick: () => choose({right: row.label})}, short(row.label));
+    const chosen = row.label === state.right ? "mark chosen" : "mark";
+    const name = svg("text", {x: LEFT - 8, y: y + 16, "text-anchor": "end", class: chosen, onclick: () => choose({right: row.label})}, short(row.label));
     name.append(svg("title", {}, row.label));
     root.append(name);
     drawRow(root, row, y, x);
@@ -178,7 +190,8 @@ function bar(x, y, width, fillColour, title, opacity = 1) {
 function errorChart(rows) {
   const sorted = [...rows].sort((a, b) => a.eA - b.eA);
   return rowsChart(sorted, Math.max(...sorted.map(r => r.eA), 1e-4), "", (root, row, y, x) => {
-    root.append(bar(x(0), y, x(row.eA) - x(0), colour(row.method), `${row.label}: eA ${fixed(row.eA, 4)}`), svg("text", {x: x(row.eA) + 6, y: y + 16}, fixed(row.eA, 4)));
+    root.append(bar(x(0), y, x(row.eA) - x(0), colour(row.method), `${row.label}: eA ${fixed(row.eA, 4)}`),
+      svg("text", {x: x(row.eA) + 6, y: y + 16}, fixed(row.eA, 4)));
   });
 }
 function framesChart(rows) {
@@ -187,9 +200,11 @@ function framesChart(rows) {
   for (const line of lines) line.mean = line.values.reduce((sum, r) => sum + r.eA, 0) / line.values.length;
   lines.sort((a, b) => a.mean - b.mean);
   return rowsChart(lines, Math.max(...all.map(r => r.eA), 1e-4), "", (root, line, y, x) => {
-    root.append(bar(x(0), y, x(line.mean) - x(0), colour(line.method), `${line.label}: mean eA ${fixed(line.mean, 4)} over ${line.values.length} frames`, 0.35));
+    const title = `${line.label}: mean eA ${fixed(line.mean, 4)} over ${line.values.length} frames`;
+    root.append(bar(x(0), y, x(line.mean) - x(0), colour(line.method), title, 0.35));
     for (const value of line.values) {
-      const dot = svg("circle", {cx: x(value.eA), cy: y + LINE / 2, r: value.shot === state.shot ? 5.5 : 3.5, fill: colour(line.method), class: "mark", onclick: () => choose({shot: value.shot, right: line.label})});
+      const onclick = () => choose({shot: value.shot, right: line.label}), r = value.shot === state.shot ? 5.5 : 3.5;
+      const dot = svg("circle", {cx: x(value.eA), cy: y + LINE / 2, r, fill: colour(line.method), class: "mark", onclick});
       dot.append(svg("title", {}, `${shotTitle(data.shots[value.shot])}: eA ${fixed(value.eA, 4)}`));
       root.append(dot);
     }
@@ -225,26 +240,34 @@ function timeChart(all) {
   const height = 360, bounds = {left: 54, right: WIDTH - 12, top: 14, bottom: height - 40};
   const times = rows.map(r => Math.log10(r.milliseconds.all)), errors = rows.map(r => r.eA);
   const low = Math.min(...times) - 0.2, high = Math.max(...times, low + 0.4) + 0.25;
-  const spread = Math.max(Math.max(...errors) - Math.min(...errors), 0.004), least = Math.max(0, Math.min(...errors) - 0.25 * spread), most = Math.max(...errors) + 0.25 * spread;
-  const x = ms => bounds.left + (bounds.right - bounds.left) * (Math.log10(ms) - low) / (high - low), y = e => bounds.bottom - (bounds.bottom - bounds.top) * (e - least) / (most - least);
+  const spread = Math.max(Math.max(...errors) - Math.min(...errors), 0.004);
+  const least = Math.max(0, Math.min(...errors) - 0.25 * spread), most = Math.max(...errors) + 0.25 * spread;
+  const x = ms => bounds.left + (bounds.right - bounds.left) * (Math.log10(ms) - low) / (high - low);
+  const y = e => bounds.bottom - (bounds.bottom - bounds.top) * (e - least) / (most - least);
   const root = svg("svg", {viewBox: `0 0 ${WIDTH} ${height}`, role: "img"});
   const step = [1, 2, 5, 10].map(f => f * 10 ** Math.floor(Math.log10((most - least) / 4))).find(s => (most - least) / s <= 6);
   for (let v = Math.ceil(least / step) * step; v <= most; v += step)
-    root.append(svg("line", {class: "axis", x1: bounds.left, x2: bounds.right, y1: y(v), y2: y(v)}), svg("text", {class: "soft", x: bounds.left - 6, y: y(v) + 4, "text-anchor": "end"}, String(+v.toPrecision(3))));
+    root.append(svg("line", {class: "axis", x1: bounds.left, x2: bounds.right, y1: y(v), y2: y(v)}),
+      svg("text", {class: "soft", x: bounds.left - 6, y: y(v) + 4, "text-anchor": "end"}, String(+v.toPrecision(3))));
   for (let e = Math.floor(low); e <= high; ++e) for (const f of [1, 2, 5]) {
     const v = f * 10 ** e;
-    if (Math.log10(v) >= low && Math.log10(v) <= high) root.append(svg("line", {class: "axis", x1: x(v), x2: x(v), y1: bounds.top, y2: bounds.bottom}), svg("text", {class: "soft", x: x(v), y: bounds.bottom + 16, "text-anchor": "middle"}, String(+v.toPrecision(3))));
+    if (Math.log10(v) >= low && Math.log10(v) <= high)
+      root.append(svg("line", {class: "axis", x1: x(v), x2: x(v), y1: bounds.top, y2: bounds.bottom}),
+        svg("text", {class: "soft", x: x(v), y: bounds.bottom + 16, "text-anchor": "middle"}, String(+v.toPrecision(3))));
   }
-  root.append(svg("text", {class: "soft", x: (bounds.left + bounds.right) / 2, y: height - 6, "text-anchor": "middle"}, "milliseconds (logarithmic)"), svg("text", {class: "soft", x: 4, y: bounds.top}, "eA"));
+  root.append(svg("text", {class: "soft", x: (bounds.left + bounds.right) / 2, y: height - 6, "text-anchor": "middle"}, "milliseconds (logarithmic)"),
+    svg("text", {class: "soft", x: 4, y: bounds.top}, "eA"));
   const dots = rows.map(row => ({row, x: x(row.milliseconds.all), y: y(row.eA)})), taken = [];
   for (const dot of [...dots].sort((a, b) => (b.row.label === state.right) - (a.row.label === state.right) || a.x - b.x)) {
-    const {row} = dot, text = short(row.label, 26), box = place(dot, text.length * 6.4, taken, dots, bounds);
-    const mark = svg("circle", {cx: dot.x, cy: dot.y, r: row.label === state.right ? 7 : 5, fill: colour(row.method), class: "mark", onclick: () => choose({right: row.label})});
+    const {row} = dot, text = short(row.label, 26), box = place(dot, text.length * 6.8, taken, dots, bounds);
+    const onclick = () => choose({right: row.label});
+    const mark = svg("circle", {cx: dot.x, cy: dot.y, r: row.label === state.right ? 7 : 5, fill: colour(row.method), class: "mark", onclick});
     mark.append(svg("title", {}, `${row.label}: eA ${fixed(row.eA, 4)}, ${milliseconds(row.milliseconds.all)} ms`));
     if (box) {
       taken.push(box);
-      if (box.far) root.append(svg("line", {class: "axis", x1: dot.x, y1: dot.y, x2: box.x > dot.x ? box.x - 2 : box.x + box.width + 2, y2: box.y - 4}));
-      root.append(svg("text", {x: box.x, y: box.y, textLength: box.width, lengthAdjust: "spacingAndGlyphs", class: row.label === state.right ? "chosen" : ""}, text));
+      const end = box.x > dot.x ? box.x - 2 : box.x + box.width + 2;
+      if (box.far) root.append(svg("line", {class: "axis", x1: dot.x, y1: dot.y, x2: end, y2: box.y - 4}));
+      root.append(svg("text", {x: box.x, y: box.y, class: row.label === state.right ? "chosen" : ""}, text));
     }
     root.append(mark);
   }
@@ -259,7 +282,8 @@ function drawCharts() {
 // ---- table ----
 const COLUMNS = [
   ["label", "method", "text"], ["scene", "scene", "text"], ["camera", "camera", "text"], ["falloff", "falloff", "text"], ["reference", "reference", "text"],
-  ["eA", "eA", 4], ["e5", "e<5%", 3], ["bias", "bias", 4], ["rmse", "rmse", 4], ["p99", "p99", 3], ["ssim", "SSIM", 4], ["flip", "FLIP", 4], ["gamma", "g*", 2], ["all", "ms", 2],
+  ["eA", "eA", 4], ["e5", "e<5%", 3], ["bias", "bias", 4], ["rmse", "rmse", 4], ["p99", "p99", 3],
+  ["ssim", "SSIM", 4], ["flip", "FLIP", 4], ["gamma", "g*", 2], ["all", "ms", 2],
 ];
 function shownRows() {
   const words = state.filter.toLowerCase().split(/\s+/).filter(Boolean);
@@ -269,20 +293,25 @@ function shownRows() {
   const order = (a, b) => typeof a === "string" ? a.localeCompare(b, "en", {numeric: true}) : a - b;
   return rows.map((row, i) => [row, i]).sort(([a, i], [b, j]) => sign * order(a[key], b[key]) || i - j).map(([row]) => row);
 }
+function show(row) {
+  choose({shot: row.shot, falloff: row.falloff, reference: row.reference, left: REFERENCE, right: row.label});
+  $("compare").scrollIntoView();
+}
 function drawTable() {
   const head = element("tr", {}, ...COLUMNS.map(([key, title, kind], i) => element("th", {
     scope: "col", class: `${kind === "text" ? "text" : ""}${i ? "" : " first"}`, "aria-sort": state.sort === key ? (state.descending ? "descending" : "ascending") : "none",
   }, element("button", {type: "button", "data-key": key, onclick: () => sortBy(key)}, title))));
   const rows = shownRows(), worst = Math.max(...rows.map(r => r.eA), 1e-6);
   const cell = (row, [key, , kind], i) => {
-    if (i === 0) return element("td", {class: "text first"}, element("button", {type: "button", onclick: () => { choose({shot: row.shot, falloff: row.falloff, reference: row.reference, left: REFERENCE, right: row.label}); $("compare").scrollIntoView(); }}, row.label));
+    if (i === 0) return element("td", {class: "text first"}, element("button", {type: "button", onclick: () => show(row)}, row.label));
     if (kind === "text") return element("td", {class: "text"}, row[key]);
-    const value = key === "bias" && row.bias >= 0 ? "+" + fixed(row.bias, kind) : fixed(row[key], kind);
+    const value = key === "bias" ? signed(row.bias, kind) : fixed(row[key], kind);
     return key === "eA" ? element("td", {class: "bar-cell", style: `--share:${(100 * row.eA / worst).toFixed(1)}%`}, value) : element("td", {}, value);
   };
   const chosen = row => row.shot === state.shot && row.falloff === state.falloff && row.reference === state.reference && row.label === state.right;
   $("table").tHead.replaceChildren(head);
-  $("table").tBodies[0].replaceChildren(...rows.map(row => element("tr", {class: chosen(row) ? "chosen" : ""}, ...COLUMNS.map((column, i) => cell(row, column, i)))));
+  const lines = rows.map(row => element("tr", {class: chosen(row) ? "chosen" : ""}, ...COLUMNS.map((column, i) => cell(row, column, i))));
+  $("table").tBodies[0].replaceChildren(...lines);
   $("count").textContent = `${rows.length} of ${everyRow.length} rows`;
 }
 function sortBy(key) {
@@ -312,17 +341,18 @@ $("filter").addEventListener("input", event => { state.filter = event.target.val
 
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 if (data.shots.length && everyRow.length) {
-  $("about").textContent = `${unique(everyRow.map(r => r.label)).length} methods and presets on ${data.shots.length} frames of ${unique(data.shots.map(s => s.scene)).length} scenes at ${data.shots[0].size.join(" × ")} px. `
-    + `Times: medians of ${data.frames} frames on ${data.device}.`;
+  const count = (number, thing) => `${number} ${thing}${number === 1 ? "" : "s"}`;
+  const number = key => unique(everyRow.map(r => r[key])).length;
+  $("about").textContent = `${count(number("method"), "method")} (${count(number("label"), "preset")}) on ${count(data.shots.length, "frame")} `
+    + `of ${count(number("scene"), "scene")} at ${data.shots[0].size.join(" × ")} px. Times: medians of ${data.frames} frames on ${data.device}.`;
   $("range").value = String(data.errorRange);
-  const first = rowsFirst();
-  choose({right: first});
+  choose({right: bestOf(data.shots[0])});
 } else {
   $("about").textContent = "Nothing was measured.";
 }
 // The best on the first frame is a good thing to see first.
-function rowsFirst() {
-  const s = data.shots[0], rows = s.rows.filter(r => r.falloff === s.references[0].falloff && r.reference === s.references[0].kind);
+function bestOf(s) {
+  const rows = s.rows.filter(r => r.falloff === s.references[0].falloff && r.reference === s.references[0].kind);
   return rows.reduce((best, row) => row.eA < best.eA ? row : best, rows[0]).label;
 }
 })();
