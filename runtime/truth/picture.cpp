@@ -149,6 +149,7 @@ Picture readExr(const std::filesystem::path& file, std::initializer_list<std::st
     checkBlocks(file, bytes, header.exr, int(height));
 
     Image image;
+    image.exr.num_channels = header.exr.num_channels;  // how many planes tinyexr frees when it fails
     if (LoadEXRImageFromMemory(&image.exr, &header.exr, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
         InitEXRImage(&image.exr);  // tinyexr has freed its planes already and left the pointers
         fail(file, fmt::format("is damaged or truncated ({}); write it again", takeMessage(message)));
