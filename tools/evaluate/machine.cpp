@@ -80,8 +80,11 @@ void Machine::expect(gpu::Status status, const char* doing) const {
         app::kFailed);
 }
 
-render::Renderer& Machine::renderer() {
-    if (!m_renderer) m_renderer = render::Renderer::create(*m_device, m_shaders);
+render::Renderer& Machine::newRenderer() {
+    expect(m_frames->wait(), "waiting for the last scene");
+    m_renderer.reset();
+    m_device->waitIdle();
+    m_renderer = render::Renderer::create(*m_device, m_shaders);
     if (!m_renderer) expect(gpu::Status::shaderError, "making the renderer");
     return *m_renderer;
 }

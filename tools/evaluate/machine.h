@@ -24,8 +24,10 @@ public:
 
     gpu::Device& device() { return *m_device; }
     const std::string& deviceName() const { return m_device->caps().deviceName; }
+    // For a scene, made anew: nothing of an earlier scene can be in its pictures or times. The last one is gone.
+    render::Renderer& newRenderer();
+    render::Renderer& renderer() { return *m_renderer; }
     // Made when first asked for; throw app::Complaint.
-    render::Renderer& renderer();            // for scenes
     ao::Library& library();                  // for captured frames
     truth::ScreenReference& screen();
     // The method's pipelines exist in `library`, or app::Complaint.

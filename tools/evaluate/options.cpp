@@ -167,16 +167,15 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     takeAll(cli.add_option("--falloff", falloffTexts,
                            "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
-    auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported")
-                       ->check(CLI::Range(1u, 100000u))
-                       ->capture_default_str();
+    auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported (12; --gallery 7)")
+                       ->check(CLI::Range(1u, 100000u));
     cli.add_option("--warm-up", options.warmUp, "Frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
 
     cli.option_defaults()->group("Against what");
     takeAll(cli.add_option("--reference", references,
                            "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance"));
     cli.add_option("--channel", channel, "Channel of that EXR (the one named after the falloff: world.quadratic_2)");
-    cli.add_option("--rays", options.rays.rays, "Rays a pixel at most")->check(CLI::Range(32u, 1048576u))->capture_default_str();
+    auto* rays = cli.add_option("--rays", options.rays.rays, "Rays a pixel at most (4096; --gallery 256)")->check(CLI::Range(32u, 1048576u));
     cli.add_option("--target-error", options.rays.targetError, "Standard error at which a pixel stops; 0 casts all rays")
         ->check(CLI::Range(0.0f, 1.0f))
         ->capture_default_str();
@@ -225,6 +224,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (falloffTexts.empty()) falloffTexts = {"quadratic:2", "exponential:1"};
         if (references.empty()) references = {"world", "screen"};
         if (!*frames) options.frames = 7;
+        if (!*rays) options.rays.rays = 256;
         if (!*sizeOption) options.size = {480, 270};
         if (!*scene && capture.empty())
             for (const SceneFile& known : namedScenes())

@@ -133,7 +133,7 @@ void sceneShots(Machine& machine, const Options& options, const TakeShot& take) 
         auto world = std::make_shared<scene::World>();
         world->add({.model = scene::loadGltf(file.file)});
         if (world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", name));
-        if (machine.renderer().load(*world) != gpu::Status::ok)
+        if (machine.newRenderer().load(*world) != gpu::Status::ok)
             throw Complaint(fmt::format("{}: cannot be uploaded to {}", file.file.string(), machine.deviceName()), app::kFailed);
         for (const CameraChoice& choice : options.cameras) {
             Shot shot;
