@@ -151,7 +151,7 @@ function drawGrid() {
   const r = reference();
   const cards = [card(REFERENCE, r.picture, r.rays ? `${r.rays.toFixed(0)} rays, ±${fixed(r.error, 4)}` : "from a file")];
   for (const row of rowsHere()) {
-    const what = `eA ${fixed(row.eA, 4)} · SSIM ${fixed(row.ssim, 3)} · ${milliseconds(row.milliseconds.all)} ms`;
+    const what = `eA ${fixed(row.eA, 4)} · SSIM ${fixed(row.ssim, 3)} · ${milliseconds(row.milliseconds.all)}\u00a0ms`;
     cards.push(card(row.label, drawnOf(row.label).picture, what));
   }
   $("grid").replaceChildren(...cards);
