@@ -1,4 +1,6 @@
 // EXR files: whole out, whole or a reason in.
+#include <cstring>
+
 #include "scratch.h"
 #include "truth/picture.h"
 
@@ -47,6 +49,25 @@ TEST(Picture, anyTruncationIsAnError) {
         obscura::test::writeText(scratch / "b.exr", bytes.substr(0, length));
         EXPECT_THROW(readExr(scratch / "b.exr"), obscura::scene::Error) << length;
     }
+}
+
+// A block that names the wrong lines would leave others unwritten.
+TEST(Picture, misplacedLinesAreAnError) {
+    const Scratch scratch;
+    writeExr(scratch / "a.exr", sample());
+    std::string bytes = obscura::test::readText(scratch / "a.exr");
+    // Two blocks of lines: their offsets stand right before the first block.
+    size_t table = 8;
+    uint64_t offsets[2] = {};
+    for (; table + 16 < bytes.size(); ++table) {
+        std::memcpy(offsets, &bytes[table], 16);
+        if (offsets[0] == table + 16) break;
+    }
+    ASSERT_LT(offsets[1], bytes.size());
+    ASSERT_EQ(bytes[offsets[1]], 16);
+    bytes[offsets[1]] = 0;
+    obscura::test::writeText(scratch / "b.exr", bytes);
+    expectError([&] { readExr(scratch / "b.exr"); }, "scan lines are out of order");
 }
 
 TEST(Picture, damageNeverCrashes) {

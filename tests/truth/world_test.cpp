@@ -252,6 +252,9 @@ TEST(WorldReference, progressIsToldAndCanStop) {
     };
     world.trace(lumps.receivers, falloffs, options);
     EXPECT_EQ(last, 1.0f);
+    last = 0.0f;
+    world.trace(std::span<const Receiver>(), falloffs, options);  // nothing to do is done as well
+    EXPECT_EQ(last, 1.0f);
     options.progress = [](float) { return false; };
     test::expectError([&] { world.trace(lumps.receivers, falloffs, options); }, "stopped");
     options.progress = [](float) -> bool { throw scene::Error("from the callback"); };
