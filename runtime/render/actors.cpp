@@ -74,7 +74,7 @@ void Ranges::give(uint32_t first, uint32_t count) {
 
 void Actors::release(Actor& actor) {
     for (Piece& piece : actor.pieces)
-        if (piece.posed != kNotPosed) m_ranges.give(piece.posed, piece.primitive->vertexCount);
+        if (piece.posed != kNotPosed) m_ranges.give(piece.posed, piece.vertices);
     actor.pieces.clear();
 }
 
@@ -90,7 +90,8 @@ void Actors::rebuild(Actor& actor, const scene::Instance& instance, const ModelG
         for (const PrimitiveGpu& primitive : model.meshes[size_t(source.mesh)]) {
             if (primitive.indexCount == 0) continue;
             Piece piece{node, &primitive, primitive.skinned && source.skin >= 0};
-            if (piece.skinned || primitive.morphed) piece.posed = m_ranges.take(primitive.vertexCount);
+            piece.vertices = primitive.vertexCount;
+            if (piece.skinned || primitive.morphed) piece.posed = m_ranges.take(piece.vertices);
             if (piece.posed == kNotPosed && !animated[size_t(node)]) piece.rested = kSettled;
             actor.pieces.push_back(piece);
         }

@@ -62,6 +62,7 @@ private:
         const PrimitiveGpu* primitive = nullptr;
         bool skinned = false;
         uint32_t posed = kNotPosed;
+        uint32_t vertices = 0;  // of the posed range; its model may be gone when the range is given back
         glm::mat4 world{1.0f};  // last frame's, until updated
         uint32_t rested = 0;    // frames it has been still
     };

@@ -203,6 +203,24 @@ TEST_F(Frame, viewsParseAndShow) {
     EXPECT_FALSE(render::parseView("pass:", view, pass));
 }
 
+// Another scene's models, whose own are gone by then, leave their room in the posed buffers as they found it.
+TEST_F(Frame, aSceneSwitchLeavesNothingBehind) {
+    Bench switched, fresh;
+    scene::World second;
+    for (const float x : {-1.0f, 0.0f, 1.0f}) {
+        second.add(instanceOf(wavingPatch(), {x, 0.2f, -1.0f}));
+        second.add(instanceOf(bendingBar(), {x, -0.4f, 0.0f}));
+    }
+    render::FrameOptions options = fresh.options();
+    options.time = 0.4f;
+    options.cut = true;
+    for (int i = 0; i < 3; ++i) {
+        switched.render(mixedWorld(), options);
+        switched.render(second, options);
+    }
+    EXPECT_EQ(switched.render(second, options).depth, fresh.render(second, options).depth);
+}
+
 TEST_F(Frame, removedModelsLeaveMemory) {
     Bench bench;
     scene::World world;
