@@ -11,6 +11,7 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D horizons;
+
 // One direction's line on its way. `sine` of its elevation is H.
 struct Line {
     vec3 t, along;    // tangent; the same in homogeneous pixels

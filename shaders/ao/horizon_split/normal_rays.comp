@@ -12,6 +12,7 @@ layout(set = 0, binding = 3, r16f) uniform readonly image2D belowHorizon;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D horizons;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D aboveHorizon;
 layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
+
 // How far along a ray something stands in its way, metres; the middle of the step that found it. kFree: nothing does. Here
 // the depth buffer answers, whose surfaces are `thickness` deep; a grid of voxels would be a second function like it.
 const float kFree = 3e38;
