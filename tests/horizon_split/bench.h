@@ -1,97 +1,16 @@
-// Runs the method on a frame made by hand, under validation.
+// The method under test and what its pictures are compared by.
 #pragma once
 
-#include <set>
-#include <string>
-
-#include "ao/room.h"
+#include "ao/method_test.h"
 
 namespace obscura::test {
 
-// Obscurance (1 - visibility) of the visible part, row by row.
-using Picture = std::vector<float>;
-
-class HorizonSplitTest : public GpuTest {
+class HorizonSplitTest : public MethodTest {
 protected:
-    using Changes = std::vector<ao::Setting>;  // over a preset
-
-    void SetUp() override {
-        GpuTest::SetUp();
-        m_shaders.add(ao::shaders());
-        m_graph = std::make_unique<graph::Graph>(m_device);
-        m_library = std::make_unique<ao::Library>(m_device, m_shaders);
-    }
-    void TearDown() override {
-        m_library.reset();
-        m_graph.reset();
-        GpuTest::TearDown();
-    }
-
-    static ao::Values values(const Changes& changes, const std::string& presetId = "default") {
-        const ao::MethodInfo& info = *ao::findMethod("horizon_split");
-        ao::Values result(info);
-        bool found = false;
-        for (const ao::Preset& preset : info.presets)
-            if (presetId == preset.id) found = result.apply(preset);
-        EXPECT_TRUE(found) << presetId;
-        for (const ao::Setting& change : changes) EXPECT_TRUE(result.set(change.id, change.value)) << change.id;
-        return result;
-    }
-
-    Picture run(const Room& room, const ao::Values& values, const char* falloff = "linear:1.5") { return run(room, room.frame(), values, falloff); }
-
-    // With the room's images; `frame` says how they are to be read.
-    Picture run(const Room& room, const ao::Frame& frame, const ao::Values& values, const char* falloff) {
-        const gpu::Image depth = room.image(m_device, false), normals = room.image(m_device, true);
-        ao::Falloff rho;
-        EXPECT_TRUE(ao::parseFalloff(falloff, rho));
-        const auto import = [&](const char* name, const gpu::Image& image) {
-            graph::External external{image.handle(), image.view(), image.desc()};
-            external.layout = external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-            return m_graph->import(name, external);
-        };
-        m_device.nextFrame();
-        m_graph->begin();
-        ao::Sources sources;
-        sources.depth = import("depth", depth);
-        sources.normals = import("normals", normals);
-        const graph::ImageId visibility = m_library->add(*m_graph, frame, sources, rho, values);
-        EXPECT_TRUE(bool(visibility));
-        if (!visibility) return {};
-        const uint32_t width = frame.size.width - 2 * frame.guard.width, height = frame.size.height - 2 * frame.guard.height;
-        gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(m_device, uint64_t(width) * height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
-        const graph::BufferId target = m_graph->import("back", back, graph::Graph::Shared::written);
-        m_graph->pass("read back").use(visibility, graph::Access::transferRead).use(target, graph::Access::transferWrite)
-            .record([&, visibility](const graph::PassContext& c) {
-                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
-                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
-            });
-        m_passes.clear();
-        for (const auto& written : m_graph->written()) m_passes.insert(written.pass);
-        gpu::Status status = gpu::Status::ok;
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph->execute(cmd); }), gpu::Status::ok);
-        EXPECT_EQ(status, gpu::Status::ok);
-        std::vector<uint16_t> half(size_t(width) * height);
-        std::memcpy(half.data(), back.mapped(), half.size() * 2);
-        Picture result;
-        for (const uint16_t h : half) result.push_back(1.0f - halfToFloat(h));
-        return result;
-    }
-
-    gpu::Device& m_device = device();
-    gpu::ShaderLibrary m_shaders;
-    std::unique_ptr<graph::Graph> m_graph;
-    std::unique_ptr<ao::Library> m_library;
-    std::set<std::string> m_passes;  // of the last run
+    HorizonSplitTest() : MethodTest("horizon_split") {}
+    using MethodTest::run;
+    Picture run(const Room& room, const ao::Values& values) { return run(room, values, "linear:1.5"); }
 };
-
-inline double mean(const Picture& picture) {
-    double sum = 0.0;
-    for (const float v : picture) sum += v;
-    return sum / double(picture.size());
-}
-inline float highest(const Picture& picture) { return *std::max_element(picture.begin(), picture.end()); }
 
 // What `term` shows.
 enum Term { kBoth, kHorizon, kNormalRays, kMarching };

@@ -9,6 +9,7 @@
 
 #include "app/complaint.h"
 #include "app/progress.h"
+#include "app/statistics.h"
 
 namespace obscura::evaluate {
 
@@ -37,12 +38,31 @@ Drawn draw(Machine& machine, Shot& shot, const Options& options, size_t candidat
         return std::vector{shot.add(graph, candidate, options.falloffs[falloffIndex].falloff, index)};
     });
     Drawn drawn{candidateIndex, falloffIndex, planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, 0.0};
-    for (graph::PassTime& pass : ran.passes) {
-        if (std::find(shot.framePasses.begin(), shot.framePasses.end(), pass.name) != shot.framePasses.end()) continue;
-        drawn.milliseconds += pass.milliseconds;
-        drawn.passes.push_back(std::move(pass));
-    }
+    for (graph::PassTime& pass : ran.passes)
+        if (std::find(shot.framePasses.begin(), shot.framePasses.end(), pass.name) == shot.framePasses.end()) drawn.passes.push_back(std::move(pass));
     return drawn;
+}
+
+// The list is run round by round; the times that count are medians over the rounds.
+std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options) {
+    const size_t perFalloff = options.candidates.size(), count = perFalloff * options.falloffs.size();
+    app::Progress progress("running methods on " + shot.scene, count * options.rounds);
+    std::vector<Drawn> all;
+    std::vector<std::vector<std::vector<double>>> times(count);  // of each drawing, pass and round
+    for (uint32_t round = 0; round < options.rounds; ++round)
+        for (size_t i = 0; i < count; ++i) {
+            progress.at(round * count + i, options.candidates[i % perFalloff].label());
+            Drawn drawn = draw(machine, shot, options, i % perFalloff, i / perFalloff);
+            times[i].resize(drawn.passes.size());
+            for (size_t p = 0; p < drawn.passes.size(); ++p) times[i][p].push_back(drawn.passes[p].milliseconds);
+            if (round == 0) all.push_back(std::move(drawn));
+        }
+    for (size_t i = 0; i < count; ++i)
+        for (size_t p = 0; p < all[i].passes.size(); ++p) {
+            all[i].passes[p].milliseconds = app::percentile(times[i][p], 0.5);
+            all[i].milliseconds += all[i].passes[p].milliseconds;
+        }
+    return all;
 }
 
 // The one number a gate needs, in a hundredth of the time.
@@ -75,14 +95,7 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
     for (const std::string& remark : references.remarks) result.remark += (result.remark.empty() ? "" : "; ") + remark;
 
     double begun = app::now();
-    {
-        app::Progress progress("running methods on " + shot.scene, options.candidates.size() * options.falloffs.size());
-        for (size_t f = 0; f < options.falloffs.size(); ++f)
-            for (size_t c = 0; c < options.candidates.size(); ++c) {
-                progress.at(f * options.candidates.size() + c, options.candidates[c].label());
-                result.drawn.push_back(draw(machine, shot, options, c, f));
-            }
-    }
+    result.drawn = drawAll(machine, shot, options);
     result.seconds.methods = (app::now() - begun) * 1e-3;
 
     begun = app::now();

@@ -170,6 +170,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported (12; --gallery 7)")
                        ->check(CLI::Range(1u, 100000u));
     cli.add_option("--warm-up", options.warmUp, "Frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
+    cli.add_option("--rounds", options.rounds, "Times the whole list is run, so that a machine's drift hits all methods alike; times are medians over rounds")
+        ->check(CLI::Range(1u, 1000u))
+        ->capture_default_str();
 
     cli.option_defaults()->group("Against what");
     takeAll(cli.add_option("--reference", references,

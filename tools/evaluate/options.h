@@ -55,7 +55,7 @@ struct Options {
     std::vector<FalloffChoice> falloffs;
     ReferenceChoice reference;
     RayChoice rays;
-    uint32_t frames = 12, warmUp = 3;
+    uint32_t frames = 12, warmUp = 3, rounds = 1;
     bool errorsOnly = false;     // eA alone, no regions or perceptual metrics: what a gate compares
     // What is written.
     std::filesystem::path json, out, page, captureOut, baseline;

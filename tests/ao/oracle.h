@@ -1,0 +1,50 @@
+// Accuracy on the stored captured frames, against references that were ray-traced through their geometry. The folder is
+// found beside the project or named by OBSCURA_ORACLE; without it these tests are skipped. Links Obscura::truth and wants
+// OBSCURA_SOURCE_DIR.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "ao/method_test.h"
+#include "truth/captured_frame.h"
+#include "truth/metrics.h"
+
+namespace obscura::test {
+
+namespace fs = std::filesystem;
+
+class OracleTest : public MethodTest {
+protected:
+    using MethodTest::MethodTest;
+
+    // name: "corner"; channel: "world.linear_1.5", of NAME.reference.exr. Metrics of obscurance over the valid visible pixels.
+    truth::Metrics measure(const std::string& name, const ao::Values& values, const char* falloff, const std::string& channel) {
+        const char* named = std::getenv("OBSCURA_ORACLE");
+        const fs::path folder = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
+        if (!fs::exists(folder / (name + ".json"))) skip("no " + (folder / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
+
+        const truth::CapturedFrame captured = truth::readCapture(folder / name);
+        Room room;
+        room.width = captured.size.x;
+        room.height = captured.size.y;
+        room.depth = captured.depth;
+        for (const glm::vec3& n : captured.normals) room.normals.insert(room.normals.end(), {n.x, n.y, n.z, 0.0f});
+        ao::Frame frame = room.frame();
+        frame.guard = {captured.guard.x, captured.guard.y};
+        frame.skyDepth = captured.skyDepth;
+        std::memcpy(frame.projection, &captured.projection[0][0], sizeof(frame.projection));
+
+        truth::Plane visibility(captured.visible().x, captured.visible().y);
+        visibility.values = run(room, frame, values, falloff);
+        truth::Plane reference = truth::readExr(folder / (name + ".reference.exr")).plane(channel);
+        for (truth::Plane* plane : {&visibility, &reference})
+            for (float& v : plane->values) v = 1.0f - v;  // both come as obscurance
+        const truth::Metrics metrics = truth::compare(visibility, reference, truth::Mask(captured.visibleMask()));
+        printf("%-9s %s %s: eA %.4f, bias %+.4f, within 0.05 %.3f, SSIM %.3f\n", name.c_str(), m_method, channel.c_str(), double(metrics.raw.eA), double(metrics.raw.bias),
+               double(metrics.raw.e5), double(metrics.ssim));
+        return metrics;
+    }
+};
+
+}  // namespace obscura::test
