@@ -1,6 +1,25 @@
 #include "ao/library.h"
 
+#include <cstring>
+
 namespace obscura::ao {
+namespace {
+
+// previous * now^-1 of two rigid transforms given by columns, as three rows. In double: worlds are large, steps are small.
+void previousFromEye(const float now[16], const float previous[16], float rows[12]) {
+    for (int r = 0; r < 3; ++r) {
+        double translation = previous[12 + r];
+        for (int c = 0; c < 3; ++c) {
+            double turned = 0.0;
+            for (int k = 0; k < 3; ++k) turned += double(previous[4 * k + r]) * double(now[4 * k + c]);
+            rows[4 * r + c] = float(turned);
+            translation -= turned * double(now[12 + c]);
+        }
+        rows[4 * r + 3] = float(translation);
+    }
+}
+
+}  // namespace
 
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
     m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok;
@@ -35,7 +54,10 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     if (!prepare(values.info())) return {};
     if (m_last != &values.info()) reset();
     m_last = &values.info();
-    const Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
+    Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
+    previousFromEye(frame.eyeFromWorld, m_hasLast ? m_eyeFromWorld : frame.eyeFromWorld, inputs.previousFromEye);
+    std::memcpy(m_eyeFromWorld, frame.eyeFromWorld, sizeof(m_eyeFromWorld));
+    m_hasLast = true;
     if (inputsOut) *inputsOut = inputs;
     for (size_t i = 0; i < registry().size(); ++i)
         if (registry()[i].info == &values.info()) return m_methods[i]->add(graph, inputs, values);
@@ -43,6 +65,7 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
 }
 
 void Library::reset() {
+    m_hasLast = false;
     for (auto& method : m_methods)
         if (method) method->reset();
 }

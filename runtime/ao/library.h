@@ -31,6 +31,8 @@ private:
     Prepare m_prepare;
     std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
     const MethodInfo* m_last = nullptr;
+    float m_eyeFromWorld[16] = {};  // last frame's
+    bool m_hasLast = false;
     bool m_ready = false;
 };
 

@@ -20,6 +20,7 @@ struct Inputs {
     graph::ImageId depth;        // R32F, view.size: linear depth, sky at view.skyDepth
     graph::ImageId normals;      // R32UI, view.size: geometric eye-space normals, packNormal()
     graph::ImageId motion;       // RG16F, view.size, optional: pixels from this frame's position to last frame's (previous = here + motion)
+    float previousFromEye[12];   // three rows: where a point of this frame's eye space that stands still in the world was in last frame's
     shared::FalloffBlock falloff;
     Falloff falloffDesc;
 };

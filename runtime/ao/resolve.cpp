@@ -1,6 +1,18 @@
 #include "ao/resolve.h"
 
+#include <algorithm>
+#include <string>
+
 namespace obscura::ao {
+namespace {
+
+struct Reprojection {  // temporal.comp
+    float previousFromEye[12];
+    float history, depthTolerance, normalTolerance, clip, clipFloor;
+    uint32_t valid;
+};
+
+}  // namespace
 
 Status Denoise::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Denoise& out) {
     return gpu::Program::compute(device, shaders, "ao/common/denoise.comp", {}, out.m_blur) == gpu::Status::ok ? Status::ok : Status::shaderError;
@@ -11,6 +23,40 @@ graph::ImageId Denoise::add(graph::Graph& graph, const Inputs& inputs, graph::Im
     graph.pass(passName, m_blur).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(visibility).write(result)
         .dispatch(inputs.view.visible.x, inputs.view.visible.y);
     return result;
+}
+
+Status Temporal::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Temporal& out) {
+    return gpu::Program::compute(device, shaders, "ao/common/temporal.comp", {}, out.m_reproject) == gpu::Status::ok ? Status::ok : Status::shaderError;
+}
+
+graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings, const char* passName) {
+    if (!inputs.motion || settings.history <= 0.0f) {
+        reset();  // what is there ages unseen
+        return visibility;
+    }
+    const shared::uvec2 size = inputs.view.visible;
+    const auto past = graph.history(std::string(passName) + " past", {VK_FORMAT_R32_UINT, size.x, size.y}, m_past);
+    const auto depth = graph.history(std::string(passName) + " depth", {VK_FORMAT_R32_SFLOAT, size.x, size.y}, m_depth);
+    const auto normals = graph.history(std::string(passName) + " normals", {VK_FORMAT_R32_UINT, size.x, size.y}, m_normals);
+    Reprojection constants{};
+    std::copy_n(inputs.previousFromEye, 12, constants.previousFromEye);
+    constants.history = std::min(settings.history, 0.98f);
+    constants.depthTolerance = settings.depthTolerance;
+    constants.normalTolerance = settings.normalTolerance;
+    constants.clip = settings.clip;
+    constants.clipFloor = settings.clipFloor;
+    constants.valid = past.valid && depth.valid && normals.valid ? 1 : 0;
+    const graph::ImageId result = graph.image(passName, graph.desc(visibility));
+    graph.pass(passName, m_reproject).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(inputs.motion).read(visibility)
+        .read(past.previous).read(depth.previous).read(normals.previous)
+        .write(result).write(past.current).write(depth.current).write(normals.current).constants(constants).dispatch(size.x, size.y);
+    return result;
+}
+
+void Temporal::reset() {
+    m_past.invalidate();
+    m_depth.invalidate();
+    m_normals.invalidate();
 }
 
 }  // namespace obscura::ao

@@ -1,4 +1,4 @@
-// What all methods share after their own passes: spatial denoising.
+// What all methods share after their own passes: spatial denoising and temporal reprojection.
 #pragma once
 
 #include "ao/method.h"
@@ -15,6 +15,32 @@ public:
 
 private:
     gpu::Program m_blur;
+};
+
+// What the past may say. The past is last frame's result where the motion vectors lead, bilinear over those of its four pixels
+// that show the same surface; `history` is the weight it gets once enough frames agree, 1 - 1/(n + 1) until then.
+struct TemporalSettings {
+    float history = 0.9f;         // most weight of the past, 0 (off) to 0.98
+    float depthTolerance = 0.02f; // how far off the surface's plane a past pixel may lie, in its depths [Hoang 2012, eps]
+    float normalTolerance = 0.9f; // least cosine between the normals; -1: any
+    float clip = 1.0f;            // past beyond so many standard deviations of the 3x3 around is drawn in: occluders that
+                                  // move leave no trail on receivers that do not. 0: off, as in the papers
+    float clipFloor = 0.01f;      // and this much visibility more
+};
+
+// Temporal reprojection. Wants Inputs::motion; without it visibility passes through. Owns its history: one object a method.
+class Temporal {
+public:
+    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Temporal& out);
+    // visibility: R16F, visible size. Returns a new image of the same kind.
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings, const char* passName);
+    void reset();  // the past is void: camera cut, method switch
+
+private:
+    gpu::Program m_reproject;
+    graph::History m_past;     // R32UI: visibility as 16-bit unorm, low; frames gathered, high
+    graph::History m_depth;    // R32F: linear depth
+    graph::History m_normals;  // R32UI: packNormal()
 };
 
 }  // namespace obscura::ao

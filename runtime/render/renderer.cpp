@@ -53,12 +53,13 @@ VkExtent2D guardOf(const FrameOptions& options) {
     return {uint32_t(std::lround(fraction * float(options.visible.width))), uint32_t(std::lround(fraction * float(options.visible.height)))};
 }
 
-ao::Frame frameOf(VkExtent2D size, VkExtent2D guard, const glm::mat4& projection, uint64_t index) {
+ao::Frame frameOf(VkExtent2D size, VkExtent2D guard, const CameraPair& camera, uint64_t index) {
     ao::Frame frame;
     frame.size = size;
     frame.guard = guard;
-    static_assert(sizeof(frame.projection) == sizeof(projection));
-    std::memcpy(frame.projection, &projection, sizeof(projection));
+    static_assert(sizeof(frame.projection) == sizeof(camera.projection) && sizeof(frame.eyeFromWorld) == sizeof(camera.view));
+    std::memcpy(frame.projection, &camera.projection, sizeof(frame.projection));
+    std::memcpy(frame.eyeFromWorld, &camera.view, sizeof(frame.eyeFromWorld));
     frame.depthKind = ao::DepthKind::device;
     frame.normalKind = ao::NormalKind::eye;
     frame.normalEncoding = ao::NormalEncoding::octahedral32;
@@ -193,7 +194,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     const graph::BufferId items = graph.upload("draw items", impl.draws.items.data(), impl.draws.items.size() * sizeof(shared::DrawItem));
     const GBuffer g = impl.gbuffer.add(graph, size, frame, items, impl.draws, posed, impl.materials);
 
-    const ao::Frame aoFrame = frameOf(size, guard, camera.projection, impl.frame++);
+    const ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
     ao::Inputs prepared;
     graph::ImageId visibility = impl.library.add(graph, aoFrame, {g.depth, g.geometric, g.motion}, options.falloff, *options.method, &prepared);
     if (!visibility) visibility = impl.allOpen(graph, options.visible);

@@ -125,7 +125,7 @@ struct Frame {
     VkExtent2D size{};                   // of depth and normals, guard band included
     VkExtent2D guard{};                  // px on each side that are read but not shown; visible = size - 2 guard
     float projection[16] = {};           // eye -> clip of the whole image, columns, Vulkan clip space; any depth convention
-    float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // columns; used with world normals
+    float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // columns, rigid; for world normals and for histories
     ImageView depth;                     // device: D16, D24, D32 or R32F, sampled usage; linear: R32F
     DepthKind depthKind = DepthKind::device;
     ImageView normals;                   // optional: geometric normals, sampled usage

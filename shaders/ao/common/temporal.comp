@@ -1,0 +1,89 @@
+// Temporal reprojection of visibility. The past lies where the motion vector leads; of its four pixels those count, bilinearly,
+// that lie in the plane of this pixel's surface as last frame's camera saw it and face the same way. The past is drawn into
+// the spread of the present around the pixel, which takes the trail of occluders that moved, and how far it had to be drawn
+// shortens its memory. R32UI keeps visibility in 16 bits: in a half, slow averages stand still a 1/255 off.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3) uniform sampler2D motion;
+layout(set = 0, binding = 4, r16f) uniform readonly image2D present;
+layout(set = 0, binding = 5) uniform usampler2D past;
+layout(set = 0, binding = 6, r32f) uniform readonly image2D pastDepth;
+layout(set = 0, binding = 7) uniform usampler2D pastNormals;
+layout(set = 0, binding = 8, r16f) uniform writeonly image2D result;
+layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D pastNow;
+layout(set = 0, binding = 10, r32f) uniform writeonly image2D depthNow;
+layout(set = 0, binding = 11, r32ui) uniform writeonly uimage2D normalsNow;
+layout(push_constant) uniform Constants {
+    vec4 previousFromEye[3];  // rows
+    float history, depthTolerance, normalTolerance, clip, clipFloor;
+    uint valid;
+} constants;
+
+const float kLongest = 255.0;  // frames that are counted
+
+void main() {
+    View view = viewBlock;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy), guard = ivec2(view.guard), last = ivec2(view.visible) - 1;
+    if (any(greaterThan(p, last))) return;
+    float z = imageLoad(depth, p + guard).x, now = imageLoad(present, p).x;
+    uint packedNormal = imageLoad(normals, p + guard).x;
+    imageStore(depthNow, p, vec4(z));
+    imageStore(normalsNow, p, uvec4(packedNormal));
+    if (isSky(view, z)) {
+        imageStore(result, p, vec4(now));
+        imageStore(pastNow, p, uvec4(packUnorm2x16(vec2(now, 0.0))));
+        return;
+    }
+
+    // Where the surface was for last frame's camera, had it stood still in the world.
+    vec3 here = eyePosition(view, vec2(p + guard) + 0.5, z), n = unpackNormal(packedNormal);
+    vec4 r0 = constants.previousFromEye[0], r1 = constants.previousFromEye[1], r2 = constants.previousFromEye[2];
+    vec3 there = vec3(dot(r0.xyz, here) + r0.w, dot(r1.xyz, here) + r1.w, dot(r2.xyz, here) + r2.w);
+    vec3 faced = vec3(dot(r0.xyz, n), dot(r1.xyz, n), dot(r2.xyz, n));
+    vec2 at = vec2(p) + texelFetch(motion, p + guard, 0).xy;  // in texel centres of the visible part
+    // A receiver that moves is not where the camera alone would have it; the plane is laid through where its pixel was.
+    float moved = -there.z;
+    vec3 anchor = eyePosition(view, at + 0.5 + vec2(guard), moved);
+
+    vec2 corner = floor(at), part = at - corner;
+    float sum = 0.0, length = 0.0, weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1), q = ivec2(corner) + step;
+        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThanEqual(q, last));
+        ivec2 c = clamp(q, ivec2(0), last);
+        float zq = imageLoad(pastDepth, c).x;
+        float off = abs(dot(eyePosition(view, vec2(c + guard) + 0.5, zq) - anchor, faced));
+        bool same = inside && off <= constants.depthTolerance * moved && dot(unpackNormal(texelFetch(pastNormals, c, 0).x), faced) >= constants.normalTolerance;
+        vec2 w2 = mix(1.0 - part, part, vec2(step));
+        float w = same ? w2.x * w2.y : 0.0;
+        vec2 stored = unpackUnorm2x16(texelFetch(past, c, 0).x);
+        sum += w * stored.x;
+        length += w * stored.y;
+        weights += w;
+    }
+    bool known = constants.valid != 0u && weights > 0.01;
+    float before = known ? sum / weights : now, frames = known ? length / weights * 65535.0 : 0.0;
+
+    float mean = 0.0, square = 0.0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+            float v = imageLoad(present, clamp(p + ivec2(x, y), ivec2(0), last)).x;
+            mean += v;
+            square += v * v;
+        }
+    mean /= 9.0;
+    float spread = constants.clip * sqrt(max(square / 9.0 - mean * mean, 0.0)) + constants.clipFloor;
+    float drawn = constants.clip > 0.0 ? clamp(before, mean - spread, mean + spread) : before;
+    frames *= clamp(1.0 - abs(drawn - before) / max(spread, 1e-6), 0.0, 1.0);
+
+    frames = min(frames + 1.0, kLongest);
+    float value = mix(now, drawn, known ? min(1.0 - 1.0 / frames, constants.history) : 0.0);
+    imageStore(result, p, vec4(value));
+    imageStore(pastNow, p, uvec4(packUnorm2x16(vec2(value, frames / 65535.0))));
+}
