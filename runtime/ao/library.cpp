@@ -22,7 +22,7 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 }  // namespace
 
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
-    m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok;
+    m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
 }
 
 Library::~Library() = default;
@@ -52,6 +52,7 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         return {};
     }
     if (!prepare(values.info())) return {};
+    view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
     if (m_last != &values.info()) reset();
     m_last = &values.info();
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
@@ -59,13 +60,19 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     std::memcpy(m_eyeFromWorld, frame.eyeFromWorld, sizeof(m_eyeFromWorld));
     m_hasLast = true;
     if (inputsOut) *inputsOut = inputs;
+    graph::ImageId visibility;
     for (size_t i = 0; i < registry().size(); ++i)
-        if (registry()[i].info == &values.info()) return m_methods[i]->add(graph, inputs, values);
-    return {};
+        if (registry()[i].info == &values.info()) visibility = m_methods[i]->add(graph, inputs, values);
+    if (!visibility || !values.info().needs) return visibility;
+    TemporalSettings temporal;
+    temporal.history = values["temporal"];
+    temporal.clip = values["temporal_clip"];
+    return m_temporal.add(graph, inputs, visibility, temporal, "resolve.temporal");
 }
 
 void Library::reset() {
     m_hasLast = false;
+    m_temporal.reset();
     for (auto& method : m_methods)
         if (method) method->reset();
 }

@@ -7,6 +7,7 @@
 
 #include "ao/method.h"
 #include "ao/prepare.h"
+#include "ao/resolve.h"
 
 namespace obscura::ao {
 
@@ -29,6 +30,7 @@ private:
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
     Prepare m_prepare;
+    Temporal m_temporal;
     std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
     const MethodInfo* m_last = nullptr;
     float m_eyeFromWorld[16] = {};  // last frame's

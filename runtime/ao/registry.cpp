@@ -13,8 +13,34 @@ MethodEntry noneEntry();
 MethodEntry hbaoEntry();
 MethodEntry horizonSplitEntry();
 
+namespace {
+
+// What every method has beside its own: the library puts the shared temporal pass behind it.
+const Parameter kShared[] = {
+    {"temporal", "", 0, 0.98f, 0, false, {}, "Most weight the past gets, reprojected by motion vectors; 0: none. Samples then rotate over frames."},
+    {"temporal_clip", "sd", 0, 8, 1.5f, false, {}, "The past is drawn into so many standard deviations of the present around; 0 lets moved occluders trail."},
+};
+
+// A method's own table with the shared one behind it.
+struct Composed {
+    std::vector<Parameter> parameters;
+    MethodInfo info;
+    explicit Composed(const MethodInfo& own) : info(own) {
+        parameters.assign(own.parameters.begin(), own.parameters.end());
+        if (own.needs) parameters.insert(parameters.end(), std::begin(kShared), std::end(kShared));
+        info.parameters = {parameters.data(), parameters.size()};
+    }
+};
+
+}  // namespace
+
 std::span<const MethodEntry> registry() {
-    static const MethodEntry kEntries[] = {noneEntry(), hbaoEntry(), horizonSplitEntry()};
+    static const std::vector<MethodEntry> kEntries = [] {
+        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry()};
+        static std::vector<std::unique_ptr<Composed>> composed;
+        for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
+        return entries;
+    }();
     return kEntries;
 }
 

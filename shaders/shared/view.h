@@ -35,6 +35,11 @@ vec2 pixelOf(View view, vec3 eye) {
 // Unit vector from an eye-space point towards the camera.
 vec3 towardsEye(View view, vec3 eye) { return view.orthographic > 0.5 ? vec3(0, 0, 1) : normalize(-eye); }
 bool isSky(View view, float depth) { return depth >= view.skyDepth; }
+// What noise in [0,1) is shifted by this frame, three dimensions: additive sequence on the plastic number's kin [Roberts 2018,
+// The Unreasonable Effectiveness of Quasirandom Sequences]. Zero where no history would average it.
+vec3 frameShift(View view) {
+    return view.temporal != 0u ? fract(float(view.frame & 1023u) * vec3(0.8191725134, 0.6710436067, 0.5497004779)) : vec3(0.0);
+}
 #endif
 
 #endif

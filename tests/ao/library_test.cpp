@@ -10,6 +10,7 @@ protected:
     gpu::ShaderLibrary m_shaders;
     graph::Graph m_graph{m_device};
     std::unique_ptr<Library> m_library;
+    uint64_t m_frame = 0;
 
     void SetUp() override {
         test::GpuTest::SetUp();
@@ -22,7 +23,7 @@ protected:
     }
 
     // Visibility of a room, row by row; empty when the library refused.
-    std::vector<float> run(const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true) {
+    std::vector<float> run(const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true, bool withMotion = false) {
         const gpu::Image depth = room.image(m_device, false), normals = room.image(m_device, true);
         Falloff rho;
         EXPECT_TRUE(parseFalloff(falloff, rho));
@@ -36,7 +37,17 @@ protected:
         Sources sources;
         sources.depth = import("depth", depth);
         if (withNormals) sources.normals = import("normals", normals);
-        const graph::ImageId visibility = m_library->add(m_graph, room.frame(), sources, rho, values);
+        gpu::Image motion;
+        if (withMotion) {
+            EXPECT_EQ(gpu::Image::create(m_device, {VK_FORMAT_R32G32_SFLOAT, room.width, room.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                                         "still", motion), gpu::Status::ok);
+            const std::vector<float> still(size_t(room.width) * room.height * 2, 0.0f);
+            EXPECT_EQ(gpu::upload(m_device, motion, std::as_bytes(std::span(still)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
+            sources.motion = import("motion", motion);
+        }
+        Frame frame = room.frame();
+        frame.index = m_frame++;
+        const graph::ImageId visibility = m_library->add(m_graph, frame, sources, rho, values);
         if (!visibility) return {};
         const uint32_t width = room.visibleWidth(), height = room.visibleHeight();
         gpu::Buffer back;
@@ -86,6 +97,34 @@ TEST_F(LibraryTest, theSameFrameTwiceIsTheSameToTheBit) {
     room.wall = -5.0f;
     room.build();
     for (const MethodInfo* info : methods()) EXPECT_EQ(run(room, Values(*info)), run(room, Values(*info))) << info->id;
+}
+
+// With a history samples rotate and their noise goes; without motion vectors nothing rotates, so nothing shimmers.
+TEST_F(LibraryTest, everyMethodCanGatherOverFrames) {
+    test::Room room;
+    room.wall = -5.0f;
+    room.build();
+    for (const MethodInfo* info : methods()) {
+        if (std::string(info->id) == "none") continue;
+        Values off(*info), on(*info);
+        ASSERT_TRUE(on.set("temporal", 0.9f)) << info->id;
+        on.set("temporal_clip", 0.0f);
+        const std::vector<float> single = run(room, off);
+        EXPECT_EQ(run(room, on), single) << info->id << " without motion";
+        m_library->reset();
+        std::vector<float> gathered;
+        for (int i = 0; i < 24; ++i) gathered = run(room, on, "quadratic:2", true, true);
+        EXPECT_NEAR(mean(gathered), mean(single), 0.01) << info->id;
+        const std::vector<float> next = run(room, on, "quadratic:2", true, true);
+        double change = 0.0;
+        for (size_t i = 0; i < next.size(); ++i) change += std::abs(next[i] - gathered[i]);
+        EXPECT_LT(change / double(next.size()), 0.004) << info->id;
+    }
+    const Values hbao = [] { Values v(*findMethod("hbao")); v.set("temporal", 0.9f); return v; }();
+    m_library->reset();
+    const std::vector<float> first = run(room, hbao, "quadratic:2", true, true);
+    m_library->reset();
+    EXPECT_NE(run(room, hbao, "quadratic:2", true, true), first) << "samples do not rotate";
 }
 
 TEST_F(LibraryTest, skyIsOpen) {

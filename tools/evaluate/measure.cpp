@@ -33,7 +33,8 @@ Drawn draw(Machine& machine, Shot& shot, const Options& options, size_t candidat
     const Candidate& candidate = options.candidates[candidateIndex];
     // A method that gathers over frames is judged once it has gathered.
     constexpr uint32_t kGathered = 16;
-    const uint32_t warmUp = candidate.info().needs & ao::kMotion ? std::max(options.warmUp, kGathered) : options.warmUp;
+    const bool gathers = (candidate.info().needs & ao::kMotion) || (candidate.info().needs && candidate.values["temporal"] > 0.0f);
+    const uint32_t warmUp = gathers ? std::max(options.warmUp, kGathered) : options.warmUp;
     Machine::Ran ran = machine.run(warmUp, options.frames, [&](graph::Graph& graph, uint32_t index) {
         return std::vector{shot.add(graph, candidate, options.falloffs[falloffIndex].falloff, index)};
     });

@@ -66,8 +66,9 @@ void main() {
 
     float reach = min(rho.reach * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z), maxPixels);
     int tile = (texel.y & 3) * 4 + (texel.x & 3);
-    float rotation = (kRotation[tile] + 0.5) / 16.0;
-    float offset = (kOffset[tile] + 0.5) / 16.0;
+    vec3 shift = frameShift(view);
+    float rotation = fract((kRotation[tile] + 0.5) / 16.0 + shift.x);
+    float offset = fract((kOffset[tile] + 0.5) / 16.0 + shift.y);
     float stepPixels = max(reach / float(steps), 1.0);
     float span = stepPixels * float(steps);
     float inverseSteps = 1.0 / float(steps);

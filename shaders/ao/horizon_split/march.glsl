@@ -27,9 +27,10 @@ const float kNextStep = 0.61803399, kNextNormal = 0.75487767;
 struct Noise {  // each in [0,1)
     float rotation, step, normal;
 };
-Noise noiseAt(ivec2 texel) {
+Noise noiseAt(View view, ivec2 texel) {
     int tile = (texel.y & 3) * 4 + (texel.x & 3);
-    return Noise((kRotation[tile] + 0.5) / 16.0, (kStep[tile] + 0.5) / 16.0, (kNormal[tile] + 0.5) / 16.0);
+    vec3 noise = fract((vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0 + frameShift(view));
+    return Noise(noise.x, noise.y, noise.z);
 }
 
 // Where a pixel's lines start and around what they turn.
