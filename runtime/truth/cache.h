@@ -6,23 +6,13 @@
 #include <span>
 #include <string>
 
+#include "scene/hash.h"
 #include "truth/screen_reference.h"
 #include "truth/world_reference.h"
 
 namespace obscura::truth {
 
-// 128 bits of what was added, in order. Not against an adversary.
-class Hash {
-public:
-    Hash& add(const void* bytes, size_t count);
-    Hash& add(std::string_view text);  // its length too
-    template <class T> requires std::is_arithmetic_v<T> Hash& add(T value) { return add(&value, sizeof value); }
-    std::string hex() const;           // 32 digits
-
-private:
-    void word(uint64_t value);
-    uint64_t m_a = 0x243f6a8885a308d3ull, m_b = 0x13198a2e03707344ull, m_words = 0;
-};
+using scene::Hash;
 
 // Keys. They cover: the posed triangles themselves (so the scene's bytes, time and animation), the models' hashes (textures
 // of masked materials), geometry options, the frame's receivers and camera, names, samples and reaches of the falloffs, and
@@ -36,9 +26,7 @@ public:
     using Warn = std::function<void(const std::string& line)>;
     // The folder is made when first written to. An empty one turns the cache off. `warn` hears of broken files and of a
     // folder that cannot be written (once); the work goes on without.
-    explicit ReferenceCache(std::filesystem::path folder = defaultFolder(), Warn warn = {});
-    // OBSCURA_CACHE, else $XDG_CACHE_HOME/obscura, else $HOME/.cache/obscura, else empty. OBSCURA_CACHE="" turns it off.
-    static std::filesystem::path defaultFolder();
+    explicit ReferenceCache(std::filesystem::path folder = scene::cacheFolder(), Warn warn = {});
 
     // From disk (fromCache is set), or made now and written: to a temporary name, then renamed.
     Reference get(const std::string& key, const std::function<Reference()>& make);

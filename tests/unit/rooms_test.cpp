@@ -60,6 +60,17 @@ TEST(Rooms, theLibraryNeverSeesWindowsOrFiles) {
                 EXPECT_EQ(header.find(word), std::string::npos) << fs::relative(file, kRoot) << " includes " << header;
 }
 
+TEST(Rooms, openVdbStaysInOneSourceFile) {
+    size_t seen = 0;
+    for (const char* folder : {"runtime", "game", "tools"})
+        for (const auto& [file, header] : includes(kRoot / folder))
+            if (header.starts_with("openvdb/") || header.starts_with("nanovdb/")) {
+                EXPECT_EQ(file.filename(), "sparse.cpp");
+                ++seen;
+            }
+    EXPECT_GT(seen, 0u);
+}
+
 TEST(Rooms, thePublicHeaderNeedsOnlyVulkan) {
     for (const auto& [file, header] : includes(kRoot / "runtime/ao/include"))
         EXPECT_TRUE(header == "cstddef" || header == "cstdint" || header == "vulkan/vulkan_core.h") << header;

@@ -128,7 +128,7 @@ References referencesOf(Machine& machine, const Shot& shot, const Options& optio
     const double begun = app::now();
     std::vector<truth::RayFalloff> falloffs;
     for (const FalloffChoice& falloff : options.falloffs) falloffs.push_back(truth::rayFalloff(falloff.falloff));
-    truth::ReferenceCache cache(options.rays.cache ? truth::ReferenceCache::defaultFolder() : std::filesystem::path(),
+    truth::ReferenceCache cache(options.rays.cache ? scene::cacheFolder() : std::filesystem::path(),
                                 [&](const std::string& line) { all.remarks.push_back(app::oneLine(line)); });
     if (options.reference.world) append(all, "world", traceWorld(shot, options, falloffs, cache), options.falloffs);
     if (options.reference.screen) append(all, "screen", traceScreen(machine, shot, options, falloffs, cache), options.falloffs);

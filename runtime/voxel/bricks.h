@@ -1,0 +1,58 @@
+// Cells and the bricks that hold them. The world is cut into cubes of one size, cell c covering [c, c + 1) x cellSize metres
+// on each axis; a set cell holds some surface. Eight cells a side are a brick: 64 bytes, bit for bit an OpenVDB mask leaf and
+// bit for bit what the GPU reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace obscura::voxel {
+
+inline constexpr int kBrickSide = 8;
+inline constexpr int kMostCell = 1 << 23;  // cells lie in [-kMostCell, kMostCell): a brick's place then packs into 63 bits
+
+struct Brick {
+    std::array<uint64_t, 8> words{};  // word x, bit 8 y + z
+
+    bool test(int x, int y, int z) const { return words[size_t(x)] >> (8 * y + z) & 1; }
+    void set(int x, int y, int z) { words[size_t(x)] |= uint64_t(1) << (8 * y + z); }
+    bool empty() const;
+    uint32_t count() const;
+    Brick& operator|=(const Brick& other);
+    bool operator==(const Brick&) const = default;
+};
+static_assert(sizeof(Brick) == 64);
+
+inline glm::ivec3 brickOf(const glm::ivec3& cell) { return {cell.x >> 3, cell.y >> 3, cell.z >> 3}; }
+
+// Bricks by place, in the order they were first touched. Grows by doubling; clear() keeps the memory, so that a set that is
+// refilled every frame allocates nothing.
+class BrickSet {
+public:
+    Brick& at(const glm::ivec3& place);  // an empty one when there was none; valid until the next at()
+    const Brick* find(const glm::ivec3& place) const;
+    void set(const glm::ivec3& cell);
+    bool test(const glm::ivec3& cell) const;
+    void merge(const BrickSet& other);
+    void clear();
+    void swap(BrickSet& other);
+
+    size_t size() const { return m_bricks.size(); }
+    uint64_t cells() const;
+    uint64_t bytes() const;
+    glm::ivec3 place(size_t i) const;
+    const Brick& operator[](size_t i) const { return m_bricks[i]; }
+
+private:
+    uint32_t slotOf(uint64_t key) const;  // where it is, or the free slot where it belongs
+    void grow();
+    std::vector<uint64_t> m_keys;
+    std::vector<Brick> m_bricks;
+    std::vector<uint32_t> m_slots;        // index + 1, 0 where free; a power of two, at most half full
+};
+
+}  // namespace obscura::voxel

@@ -1,0 +1,239 @@
+#include "voxel/rasterise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include "scene/gltf.h"
+
+namespace obscura::voxel {
+namespace {
+
+// Cells that are only touched count, and rounding shall not take them away.
+constexpr double kTouch = 1e-7;
+
+// Sets cells one after the other; neighbours mostly share a brick, which is then not looked up again. All pens of a call count
+// new bricks together and stop at the limit.
+class Pen {
+public:
+    Pen(BrickSet& set, std::atomic<size_t>& taken, size_t limit) : m_set(set), m_taken(taken), m_limit(limit) {}
+    void set(const glm::ivec3& cell) {
+        const glm::ivec3 place = brickOf(cell);
+        if (m_brick == nullptr || place != m_place) {
+            const size_t before = m_set.size();
+            m_brick = &m_set.at(place);
+            m_place = place;
+            m_full = m_full || m_taken.fetch_add(m_set.size() - before, std::memory_order_relaxed) > m_limit;
+        }
+        m_brick->set(cell.x & 7, cell.y & 7, cell.z & 7);
+    }
+    bool full() const { return m_full; }
+
+private:
+    BrickSet& m_set;
+    std::atomic<size_t>& m_taken;
+    size_t m_limit;
+    glm::ivec3 m_place{0};
+    Brick* m_brick = nullptr;
+    bool m_full = false;
+};
+
+struct Range {
+    int from, to;  // both included
+};
+
+// The cross product of an edge with a box axis is a direction in the plane of the other two axes, s and t. Triangle and cell
+// overlap along it while the cell's lower corner, a s + b t, lies in [low, high].
+struct Edge {
+    double a, b, low, high;
+    bool holds(double s, double t) const {
+        const double at = a * s + b * t;
+        return at >= low && at <= high;
+    }
+    // Leaves the t of a range that hold together with s.
+    void narrow(double s, Range& t) const {
+        if (b == 0.0) {
+            if (!holds(s, 0.0)) t.to = t.from - 1;
+            return;
+        }
+        const double inverse = 1.0 / b, one = (low - a * s) * inverse, two = (high - a * s) * inverse;
+        t = {int(std::max(double(t.from), std::ceil(std::min(one, two)))), int(std::min(double(t.to), std::floor(std::max(one, two))))};
+    }
+};
+
+inline Edge edge(const glm::dvec3* p, int i, int s, int t) {
+    const glm::dvec3 &from = p[i], &to = p[(i + 1) % 3], &other = p[(i + 2) % 3];
+    Edge e{from[t] - to[t], to[s] - from[s], 0.0, 0.0};
+    const double along = e.a * from[s] + e.b * from[t], across = e.a * other[s] + e.b * other[t];
+    const double slack = kTouch * (std::abs(e.a) + std::abs(e.b));
+    e.low = std::min(along, across) - std::max(e.a, 0.0) - std::max(e.b, 0.0) - slack;
+    e.high = std::max(along, across) - std::min(e.a, 0.0) - std::min(e.b, 0.0) + slack;
+    return e;
+}
+
+// `p` in cells. Columns stand along w, the normal's largest axis, so that the plane stays within a few cells of each. A triangle
+// too thin for its normal to mean anything is left to the edges, with rows along its longest side.
+void draw(const glm::dvec3* p, Pen& pen) {
+    glm::ivec3 low, high;
+    for (int k = 0; k < 3; ++k) {
+        low[k] = int(std::floor(std::min({p[0][k], p[1][k], p[2][k]}) - kTouch));
+        high[k] = int(std::floor(std::max({p[0][k], p[1][k], p[2][k]}) + kTouch));
+    }
+    const glm::ivec3 span = high - low;
+    glm::ivec3 cell;
+    if ((span.x == 0) + (span.y == 0) + (span.z == 0) >= 2) {  // one row of cells: what is connected touches each
+        for (cell.x = low.x; cell.x <= high.x; ++cell.x)
+            for (cell.y = low.y; cell.y <= high.y; ++cell.y)
+                for (cell.z = low.z; cell.z <= high.z && !pen.full(); ++cell.z) pen.set(cell);
+        return;
+    }
+    const glm::dvec3 q[3] = {p[0] - glm::dvec3(low), p[1] - glm::dvec3(low), p[2] - glm::dvec3(low)};
+    if (span.x == 0 || span.y == 0 || span.z == 0) {  // one layer of cells: only its outline within the layer counts
+        const int w = span.z == 0 ? 2 : span.x == 0 ? 0 : 1, u = (w + 1) % 3, v = (w + 2) % 3;
+        const Edge edges[3] = {edge(q, 0, u, v), edge(q, 1, u, v), edge(q, 2, u, v)};
+        cell[w] = low[w];
+        for (int i = 0; i <= span[u] && !pen.full(); ++i) {
+            Range across{0, span[v]};
+            for (const Edge& e : edges) e.narrow(i, across);
+            cell[u] = low[u] + i;
+            for (int j = across.from; j <= across.to; ++j) cell[v] = low[v] + j, pen.set(cell);
+        }
+        return;
+    }
+    const glm::dvec3 n = glm::cross(q[1] - q[0], q[2] - q[0]), size = glm::abs(n);
+    const double longest = double(std::max({span.x, span.y, span.z}));
+    const bool flat = std::max({size.x, size.y, size.z}) > 1e-7 * longest * longest;
+    const int w = flat ? (size.z >= size.x && size.z >= size.y ? 2 : size.x >= size.y ? 0 : 1)
+                       : ((span.z >= span.x && span.z >= span.y ? 2 : span.x >= span.y ? 0 : 1) + 1) % 3;
+    const int u = (w + 2) % 3, v = (w + 1) % 3;
+    Edge uv[3], uw[3], vw[3];
+    for (int i = 0; i < 3; ++i) uv[i] = edge(q, i, u, v), uw[i] = edge(q, i, u, w), vw[i] = edge(q, i, v, w);
+
+    // Height of the plane over a column's lower corner, and how far it rises and falls within the column.
+    const double slopeU = flat ? -n[u] / n[w] : 0.0, slopeV = flat ? -n[v] / n[w] : 0.0;
+    const double rise = std::max(slopeU, 0.0) + std::max(slopeV, 0.0) + kTouch, fall = std::min(slopeU, 0.0) + std::min(slopeV, 0.0) - kTouch;
+    for (int i = 0; i <= span[u] && !pen.full(); ++i) {
+        Range across{0, span[v]};
+        for (const Edge& e : uv) e.narrow(i, across);
+        cell[u] = low[u] + i;
+        for (int j = across.from; j <= across.to; ++j) {
+            cell[v] = low[v] + j;
+            Range up{0, span[w]};
+            if (flat) {
+                const double height = q[0][w] + slopeU * (i - q[0][u]) + slopeV * (j - q[0][v]);
+                up = {int(std::max(0.0, std::floor(height + fall))), int(std::min(double(span[w]), std::floor(height + rise)))};
+            } else {
+                for (const Edge& e : uw) e.narrow(i, up);
+            }
+            for (int k = up.from; k <= up.to; ++k) {
+                if (!(uw[0].holds(i, k) && uw[1].holds(i, k) && uw[2].holds(i, k))) continue;
+                if (!(vw[0].holds(j, k) && vw[1].holds(j, k) && vw[2].holds(j, k))) continue;
+                cell[w] = low[w] + k;
+                pen.set(cell);
+            }
+        }
+    }
+}
+
+bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+RasterReport drawRange(const Triangles& triangles, double inverse, size_t begin, size_t end, Pen pen) {
+    RasterReport report;
+    constexpr double kMost = double(kMostCell - 1);
+    for (size_t i = begin; i < end && !pen.full(); ++i) {
+        const uint32_t* index = &triangles.indices[3 * i];
+        const glm::vec3 &a = triangles.positions[index[0]], &b = triangles.positions[index[1]], &c = triangles.positions[index[2]];
+        if (!finite(a) || !finite(b) || !finite(c)) {
+            ++report.notFinite;
+            continue;
+        }
+        const glm::dvec3 p[3] = {glm::dvec3(a) * inverse, glm::dvec3(b) * inverse, glm::dvec3(c) * inverse};
+        const glm::dvec3 most = glm::max(glm::max(glm::abs(p[0]), glm::abs(p[1])), glm::abs(p[2]));
+        if (std::max({most.x, most.y, most.z}) >= kMost) {
+            ++report.tooFar;
+            continue;
+        }
+        draw(p, pen);
+        ++report.triangles;
+    }
+    return report;
+}
+
+[[noreturn]] void refuse(double bricks, double cellSize, size_t most) {
+    throw scene::Error(fmt::format("voxels: the surfaces fill about {:.3g} bricks of 8x8x8 cells at {:.3g} m a cell, and {} are held; "
+                                   "use cells of {:.2g} m or more",
+                                   bricks, cellSize, most, 1.1 * cellSize * std::sqrt(bricks / double(most))));
+}
+
+}  // namespace
+
+RasterReport& RasterReport::operator+=(const RasterReport& other) {
+    triangles += other.triangles;
+    notFinite += other.notFinite;
+    tooFar += other.tooFar;
+    return *this;
+}
+
+double area(const Triangles& triangles, double within) {
+    const auto sum = [&](const tbb::blocked_range<size_t>& range, double twice) {
+        for (size_t i = 3 * range.begin(); i < 3 * range.end(); i += 3) {
+            const glm::dvec3 a(triangles.positions[triangles.indices[i]]);
+            const glm::dvec3 b(triangles.positions[triangles.indices[i + 1]]), c(triangles.positions[triangles.indices[i + 2]]);
+            const glm::dvec3 most = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
+            const double own = glm::length(glm::cross(b - a, c - a));
+            if (most.x < within && most.y < within && most.z < within && own > 0.0) twice += own;
+        }
+        return twice;
+    };
+    // Deterministic, to the bit: cell sizes and with them names of files depend on it.
+    const tbb::blocked_range<size_t> all(0, triangles.indices.size() / 3, 8192);
+    return 0.5 * tbb::parallel_deterministic_reduce(all, 0.0, sum, std::plus<double>());
+}
+
+// A plane across a grid of bricks meets one to two of them per brick's face of its area, one and a half on average.
+double bricksOf(double area, double cellSize) {
+    const double side = kBrickSide * cellSize;
+    return 1.5 * area / (side * side);
+}
+
+RasterReport rasterise(const Triangles& triangles, double cellSize, BrickSet& into, const RasterOptions& options) {
+    const size_t count = triangles.indices.size() / 3;
+    const double inverse = 1.0 / cellSize;
+    constexpr size_t kBlock = 2048, kRound = size_t(1) << 20;
+    // Sheets that lie on each other count twice in the area: it decides alone only where it is far off.
+    const double expected = bricksOf(area(triangles, cellSize * kMostCell), cellSize);
+    if (expected > 16.0 * double(options.mostBricks)) refuse(expected, cellSize, options.mostBricks);
+    const size_t limit = 2 * options.mostBricks;  // threads may have the same brick
+    std::atomic<size_t> taken{into.size()};
+    RasterReport report;
+    struct Share { BrickSet bricks; RasterReport report; };
+    tbb::enumerable_thread_specific<Share> shares;
+    for (size_t first = 0; first < count; first += kRound) {
+        if (options.progress) options.progress(float(first) / float(count));
+        if (count <= kBlock) {
+            report += drawRange(triangles, inverse, 0, count, Pen(into, taken, limit));
+        } else {
+            tbb::parallel_for(tbb::blocked_range<size_t>(first, std::min(count, first + kRound), kBlock), [&](const tbb::blocked_range<size_t>& range) {
+                Share& own = shares.local();
+                own.report += drawRange(triangles, inverse, range.begin(), range.end(), Pen(own.bricks, taken, limit));
+            });
+            for (Share& share : shares) {
+                into.merge(share.bricks);
+                share.bricks.clear();
+            }
+        }
+        if (taken > limit || into.size() > options.mostBricks)
+            refuse(std::max(expected, double(std::max(into.size(), options.mostBricks + 1))), cellSize, options.mostBricks);
+        taken = into.size();
+    }
+    for (const Share& share : shares) report += share.report;
+    if (options.progress) options.progress(1.0f);
+    return report;
+}
+
+}  // namespace obscura::voxel

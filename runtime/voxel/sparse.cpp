@@ -1,0 +1,110 @@
+#include "voxel/sparse.h"
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
+#include <unistd.h>
+
+#include "scene/gltf.h"
+#include "scene/hash.h"
+
+namespace obscura::voxel {
+namespace {
+
+constexpr const char* kGridName = "occupancy";
+constexpr const char* kKeyName = "obscura.key";
+constexpr std::string_view kSeal = "\nobscura ";  // then 32 hexadecimal digits: the last bytes of a file
+constexpr size_t kSealBytes = kSeal.size() + 32;
+
+std::string seal(std::string_view bytes) { return std::string(kSeal) + scene::Hash().add(bytes).hex(); }
+
+openvdb::Coord firstCell(const glm::ivec3& place) { return {place.x * kBrickSide, place.y * kBrickSide, place.z * kBrickSide}; }
+
+static_assert(sizeof(openvdb::MaskTree::LeafNodeType::NodeMaskType) == sizeof(Brick) && openvdb::MaskTree::LeafNodeType::LOG2DIM == 3);
+
+}  // namespace
+
+struct Sparse::Impl {
+    openvdb::MaskGrid::Ptr grid = openvdb::MaskGrid::create();
+    openvdb::MaskTree& tree() const { return grid->tree(); }
+};
+
+Sparse::Sparse() : m_impl(std::make_unique<Impl>()) {}
+Sparse::~Sparse() = default;
+Sparse::Sparse(Sparse&&) noexcept = default;
+Sparse& Sparse::operator=(Sparse&&) noexcept = default;
+
+void Sparse::add(const BrickSet& bricks) {
+    openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(m_impl->tree());
+    for (size_t i = 0; i < bricks.size(); ++i) {
+        uint64_t* words = accessor.touchLeaf(firstCell(bricks.place(i)))->buffer().data();
+        for (size_t w = 0; w < 8; ++w) words[w] |= bricks[i].words[w];
+    }
+}
+
+bool Sparse::find(const glm::ivec3& place, Brick& out) const {
+    const auto* leaf = m_impl->tree().probeConstLeaf(firstCell(place));
+    if (leaf) std::memcpy(out.words.data(), leaf->buffer().data(), sizeof(Brick));
+    return leaf != nullptr;
+}
+
+bool Sparse::test(const glm::ivec3& cell) const { return m_impl->tree().isValueOn(openvdb::Coord(cell.x, cell.y, cell.z)); }
+
+uint64_t Sparse::cells() const { return m_impl->tree().activeVoxelCount(); }
+uint64_t Sparse::bricks() const { return m_impl->tree().leafCount(); }
+uint64_t Sparse::bytes() const { return m_impl->tree().memUsage(); }
+
+void Sparse::save(const std::filesystem::path& file, const std::string& key, double cellSize) const {
+    const std::filesystem::path temporary = file.string() + fmt::format(".{}.tmp", ::getpid());
+    try {
+        openvdb::initialize();
+        std::ostringstream text(std::ios::binary);
+        const openvdb::MaskGrid::Ptr grid = m_impl->grid->copy();  // shares the tree
+        grid->setName(kGridName);
+        grid->setTransform(openvdb::math::Transform::createLinearTransform(cellSize));
+        grid->insertMeta(kKeyName, openvdb::StringMetadata(key));
+        openvdb::io::Stream(text).write(openvdb::GridCPtrVec{grid});
+        const std::string bytes = std::move(text).str();
+        std::ofstream out(temporary, std::ios::binary);
+        out << bytes << seal(bytes);
+        out.close();
+        if (!out) throw scene::Error(fmt::format("{}: cannot be written", temporary.string()));
+        std::filesystem::rename(temporary, file);
+    } catch (const std::exception& error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw scene::Error(fmt::format("{}: {}", file.string(), error.what()));
+    }
+}
+
+Sparse Sparse::load(const std::filesystem::path& file, const std::string& key) {
+    std::ifstream in(file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const auto refuse = [&](const char* why) -> scene::Error { return scene::Error(file.string() + ": " + why); };
+    if (bytes.size() < kSealBytes) throw refuse("is cut short");
+    const std::string stood = bytes.substr(bytes.size() - kSealBytes);
+    bytes.resize(bytes.size() - kSealBytes);
+    if (seal(bytes) != stood) throw refuse("is damaged");
+    Sparse result;
+    try {
+        openvdb::initialize();
+        std::istringstream text(std::move(bytes), std::ios::binary);
+        openvdb::io::Stream stream(text, /*delayLoad=*/false);
+        const openvdb::GridPtrVecPtr grids = stream.getGrids();
+        if (grids->size() != 1) throw refuse("does not hold one grid");
+        const auto grid = openvdb::gridPtrCast<openvdb::MaskGrid>(grids->front());
+        if (!grid) throw refuse("does not hold a mask");
+        const auto stored = grid->getMetadata<openvdb::StringMetadata>(kKeyName);
+        if (!stored || stored->value() != key) throw refuse("is of another world");
+        result.m_impl->grid = grid;
+    } catch (const openvdb::Exception& error) {
+        throw refuse(error.what());
+    }
+    return result;
+}
+
+}  // namespace obscura::voxel

@@ -1,0 +1,163 @@
+#include "voxel/voxels.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <exception>
+
+#include "voxel/objects.h"
+#include "voxel/window.h"
+#include "voxel/worker.h"
+
+namespace obscura::voxel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double millisecondsSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+constexpr std::chrono::microseconds kPatience(900);  // of a millisecond: the rest is for waking up
+
+}  // namespace
+
+struct Voxels::Impl {
+    explicit Impl(Options o) : options(std::move(o)), window(options.cells), picked{options.masked} {}
+
+    const Options options;
+
+    // The worker's between post() and done(), the caller's otherwise.
+    scene::World world;
+    float time = 0.0f;
+    glm::vec3 eye{0.0f};
+    Resting resting;
+    Objects objects;
+    Window window;
+    Picked picked;
+    bool failed = false;              // the world as it rests cannot be held: said once, tried again when it is another
+    std::vector<std::string> lines;
+    double stepMilliseconds = 0.0;
+
+    // The caller's.
+    Change change;
+    bool whole = false;
+    Statistics statistics;
+    std::atomic<float> progress{1.0f};
+    Worker worker;                    // last: its thread ends before the rest goes
+
+    void step();
+    void collect();
+};
+
+// The worker's whole frame.
+void Voxels::Impl::step() {
+    bool rebuilt = false;
+    if (!resting.holds(world, picked)) {
+        Resting::Options build;
+        build.cells = options.cells;
+        build.cellSize = options.cellSize;
+        build.picked = picked;
+        build.cache = options.cache;
+        build.mostBricks = options.mostBricks;
+        build.say = [this](const std::string& line) { lines.push_back(line); };
+        build.progress = &progress;
+        progress = 0.0f;
+        failed = false;
+        try {
+            resting.build(world, time, build);
+        } catch (const std::exception& error) {
+            failed = true;
+            lines.push_back(error.what());
+        }
+        progress = 1.0f;
+        objects.clear();
+        rebuilt = true;
+    }
+    if (failed) return;
+    const Clock::time_point begun = Clock::now();
+    std::vector<glm::ivec3> changed;
+    objects.begin();
+    std::vector<Part> parts;
+    for (const scene::Instance& instance : world.instances()) {
+        if (!instance.model) continue;
+        parts = partsOf(instance, picked);
+        std::erase_if(parts, [&](const Part& part) { return resting.contains(instance.id, part); });
+        objects.add(instance, parts);
+    }
+    objects.end(time, resting.cellSize(), picked, changed, [this](const std::string& line) { lines.push_back(line); });
+    const scene::Bounds& bounds = resting.bounds();
+    window.update(windowOrigin(options.cells, resting.cellSize(), bounds.min, bounds.max, eye), changed, rebuilt, [this](const glm::ivec3& place, Brick& out) {
+        resting.sparse().find(place, out);
+        objects.compose(place, out);
+    });
+    stepMilliseconds = millisecondsSince(begun);
+}
+
+void Voxels::Impl::collect() {
+    for (const std::string& line : lines)
+        if (options.say) options.say(line);
+    lines.clear();
+    change.addresses.clear();
+    change.bricks.clear();
+    change.cells = failed || resting.cellSize() == 0.0 ? 0 : options.cells;
+    if (change.cells == 0) return;
+    change.cellSize = resting.cellSize();
+    change.origin = window.origin() * kBrickSide;
+    change.addresses = window.takeChanged(whole);
+    change.bricks.reserve(change.addresses.size());
+    for (const uint32_t address : change.addresses) change.bricks.push_back(window[address]);
+    whole = false;
+
+    statistics.resting = resting.facts();
+    statistics.objects = objects.count();
+    statistics.redone = objects.redone();
+    statistics.objectCells = objects.cells();
+    statistics.objectBytes = objects.bytes();
+    statistics.windowBytes = uint64_t(options.cells) * options.cells * options.cells / 8;
+    statistics.changedBytes = change.bricks.size() * sizeof(Brick);
+    statistics.workerMilliseconds = stepMilliseconds;
+}
+
+Voxels::Voxels(Options options) {
+    options.cells = std::bit_ceil(std::clamp(options.cells, 64u, 512u));
+    m_impl = std::make_unique<Impl>(std::move(options));
+}
+Voxels::~Voxels() = default;
+
+const Change& Voxels::update(const scene::World& world, float time, const glm::vec3& eye, Wait wait) {
+    Impl& impl = *m_impl;
+    const auto give = [&] {
+        impl.world = world;
+        impl.time = time;
+        impl.eye = eye;
+        impl.worker.post([&impl] { impl.step(); });
+    };
+    const Clock::time_point begun = Clock::now();
+    if (wait == Wait::exact) {
+        impl.worker.wait();
+        give();
+        impl.worker.wait();
+        impl.collect();
+    } else if (impl.worker.done(kPatience)) {
+        impl.collect();
+        give();
+    } else {
+        ++impl.statistics.late;
+        impl.statistics.changedBytes = 0;
+        impl.change.addresses.clear();
+        impl.change.bricks.clear();
+    }
+    impl.statistics.waitMilliseconds = millisecondsSince(begun);
+    impl.statistics.worstWait = std::max(impl.statistics.worstWait, impl.statistics.waitMilliseconds);
+    return impl.change;
+}
+
+void Voxels::resend() { m_impl->whole = true; }
+
+Statistics Voxels::statistics() const {
+    Statistics statistics = m_impl->statistics;
+    statistics.progress = m_impl->progress;
+    return statistics;
+}
+
+const Options& Voxels::options() const { return m_impl->options; }
+
+}  // namespace obscura::voxel

@@ -1,0 +1,176 @@
+// The door: a caller's copy, kept by what changes, against a world voxelized from nothing.
+#include <chrono>
+#include <thread>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "models.h"
+#include "shapes.h"
+#include "voxel/voxels.h"
+
+namespace obscura::test {
+namespace {
+
+using voxel::Change;
+using voxel::Voxels;
+
+// What the GPU would hold.
+struct Copy {
+    std::vector<voxel::Brick> bricks;
+    glm::ivec3 origin{0};
+    void apply(const Change& change) {
+        if (change.cells == 0) return;
+        bricks.resize(size_t(change.cells / 8) * (change.cells / 8) * (change.cells / 8));
+        origin = change.origin;
+        for (size_t i = 0; i < change.addresses.size(); ++i) bricks[change.addresses[i]] = change.bricks[i];
+    }
+    uint64_t cells() const {
+        uint64_t sum = 0;
+        for (const voxel::Brick& brick : bricks) sum += brick.count();
+        return sum;
+    }
+};
+
+voxel::Options small() { return {.cells = 64, .cellSize = 0.1}; }
+
+Copy fromNothing(const scene::World& world, float time, const glm::vec3& eye) {
+    Voxels voxels(small());
+    Copy copy;
+    copy.apply(voxels.update(world, time, eye, Voxels::Wait::exact));
+    return copy;
+}
+
+void expectSame(const Copy& a, const Copy& b, int step) {
+    ASSERT_EQ(a.origin, b.origin) << step;
+    ASSERT_EQ(a.bricks.size(), b.bricks.size());
+    for (size_t i = 0; i < a.bricks.size(); ++i) ASSERT_EQ(a.bricks[i], b.bricks[i]) << "step " << step << ", brick " << i;
+}
+
+scene::World busyWorld() {
+    scene::World world;
+    world.add(instanceOf(floorPlate()));
+    world.add(instanceOf(turningCube(), {0.5f, 0.8f, 0.0f}));
+    world.add(instanceOf(bendingBar(), {-1.5f, 0.2f, 0.5f}));
+    world.add(instanceOf(wavingPatch(), {0.0f, 0.5f, -1.0f}));
+    return world;
+}
+
+TEST(Voxels, changesAddUpToTheWholeWorld) {
+    scene::World world = busyWorld();
+    Voxels voxels(small());
+    Copy copy;
+    uint32_t dropped = 0;
+    for (int step = 0; step < 24; ++step) {
+        const float time = 0.13f * float(step);
+        if (step == 6) dropped = world.add(instanceOf(turningCube(), {-0.5f, 0.6f, 0.8f}));
+        if (step == 9) world.instances().back().placement = glm::translate(glm::mat4(1.0f), {0.3f, 0.4f, 0.5f});
+        if (step == 14) world.remove(dropped);
+        if (step == 18) world.instances()[0].placement = glm::rotate(glm::mat4(1.0f), 0.2f, glm::vec3(1, 0, 0));  // the floor, which rested
+        const glm::vec3 eye(3.0f * std::sin(0.7f * float(step)), 1.0f, 0.4f * float(step));
+        copy.apply(voxels.update(world, time, eye, Voxels::Wait::exact));
+        // Cell for cell: of what rests by then and what does not, a world made from nothing knows another share.
+        Copy fresh = fromNothing(world, time, eye);
+        if (step < 18) expectSame(copy, fresh, step);
+        ASSERT_EQ(copy.cells(), fresh.cells()) << step;
+    }
+    EXPECT_GT(copy.cells(), 2000u);
+}
+
+TEST(Voxels, onlyWhatMovedIsRedone) {
+    scene::World world = busyWorld();
+    Voxels voxels(small());
+    voxels.update(world, 0.5f, glm::vec3(0.0f), Voxels::Wait::exact);
+    EXPECT_GT(voxels.statistics().redone, 0u);
+    const Change& same = voxels.update(world, 0.5f, glm::vec3(0.0f), Voxels::Wait::exact);
+    EXPECT_EQ(voxels.statistics().redone, 0u);
+    EXPECT_TRUE(same.addresses.empty());
+    const Change& later = voxels.update(world, 0.6f, glm::vec3(0.0f), Voxels::Wait::exact);
+    EXPECT_GT(voxels.statistics().redone, 0u);
+    EXPECT_FALSE(later.addresses.empty());
+    EXPECT_LT(later.bricks.size() * 64, voxels.statistics().windowBytes / 4);
+}
+
+// Not waited for, the worker brings the frame before: what update() returns is the world of the call before.
+TEST(Voxels, latestIsOneFrameBehind) {
+    const scene::World world = busyWorld();
+    Voxels voxels(small());
+    Copy copy;
+    copy.apply(voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::latest));
+    EXPECT_TRUE(copy.bricks.empty());
+    for (int step = 1; step < 8; ++step) {
+        uint64_t late = voxels.statistics().late;
+        do {  // a machine under load may be late; then nothing has changed
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            late = voxels.statistics().late;
+            copy.apply(voxels.update(world, 0.2f * float(step), glm::vec3(0.0f), Voxels::Wait::latest));
+        } while (voxels.statistics().late != late);
+        expectSame(copy, fromNothing(world, 0.2f * float(step - 1), glm::vec3(0.0f)), step);
+    }
+}
+
+TEST(Voxels, mainThreadNeverWaitsForABuild) {
+    scene::World world;
+    world.add({.model = modelOf(randomSoup(400000, 10.0f, 0.3f))});
+    Voxels voxels({.cells = 256});
+    voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::latest);
+    std::vector<double> waits;
+    Copy copy;
+    while (copy.bricks.empty()) {
+        copy.apply(voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::latest));
+        if (copy.bricks.empty()) waits.push_back(voxels.statistics().waitMilliseconds);
+    }
+    EXPECT_FALSE(waits.empty());
+    EXPECT_GT(voxels.statistics().late, 0u);
+    // The median: a loaded machine may wake the thread late now and then.
+    std::sort(waits.begin(), waits.end());
+    EXPECT_LT(waits[waits.size() / 2], 1.5);
+    EXPECT_GT(copy.cells(), 100000u);
+}
+
+TEST(Voxels, resendBringsEverything) {
+    const scene::World world = busyWorld();
+    Voxels voxels(small());
+    Copy first, second;
+    first.apply(voxels.update(world, 0.5f, glm::vec3(0.0f), Voxels::Wait::exact));
+    voxels.resend();
+    second.apply(voxels.update(world, 0.5f, glm::vec3(0.0f), Voxels::Wait::exact));
+    expectSame(first, second, 0);
+}
+
+TEST(Voxels, worldThatCannotBeHeldIsSaidOnceAndGone) {
+    scene::World world;
+    Soup wide;
+    wide.add({-5e5f, 0, -5e5f}, {5e5f, 0, -5e5f}, {0, 0, 5e5f});
+    const uint32_t id = world.add({.model = modelOf(wide)});
+    std::vector<std::string> lines;
+    Voxels voxels({.cells = 64, .cellSize = 0.1, .say = [&](const std::string& line) { lines.push_back(line); }});
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::exact).cells, 0u);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("use cells of"), std::string::npos);
+    world.remove(id);
+    world.add(instanceOf(floorPlate()));
+    EXPECT_EQ(voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::exact).cells, 64u);
+}
+
+TEST(Voxels, emptyWorldIsAnEmptyWindow) {
+    Voxels voxels({.cells = 64});
+    const Change& change = voxels.update({}, 0.0f, glm::vec3(0.0f), Voxels::Wait::exact);
+    EXPECT_EQ(change.cells, 64u);
+    EXPECT_TRUE(change.addresses.empty());
+}
+
+TEST(Voxels, masksAreTakenOrLeft) {
+    scene::Material masked;
+    masked.alphaMode = scene::AlphaMode::mask;
+    scene::World world;
+    world.add(instanceOf(with(floorPlate(), masked)));
+    Copy with, without;
+    Voxels taking({.cells = 64}), leaving({.cells = 64, .masked = false});
+    with.apply(taking.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::exact));
+    without.apply(leaving.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::exact));
+    EXPECT_GT(with.cells(), 1000u);
+    EXPECT_EQ(without.cells(), 0u);
+}
+
+}  // namespace
+}  // namespace obscura::test

@@ -1,0 +1,76 @@
+// A window that moved holds what a new one would, and says no more than what entered.
+#include <random>
+
+#include "shapes.h"
+#include "voxel/window.h"
+
+namespace obscura::test {
+namespace {
+
+using voxel::Brick;
+using voxel::Window;
+
+// A world of many bricks, no two alike.
+void noise(const glm::ivec3& place, Brick& out) {
+    uint64_t h = uint64_t(uint32_t(place.x) + 1) * 73856093u ^ (uint64_t(uint32_t(place.y)) * 19349663u << 20) ^ (uint64_t(uint32_t(place.z)) * 83492791u << 32);
+    for (uint64_t& word : out.words) word |= h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull;
+}
+
+void expectSame(const Window& moved, const glm::ivec3& origin, const Window::Compose& compose) {
+    Window fresh(moved.cells());
+    fresh.update(origin, {}, false, compose);
+    const uint32_t side = moved.cells() / 8;
+    for (uint32_t address = 0; address < side * side * side; ++address) ASSERT_EQ(moved[address], fresh[address]) << address;
+}
+
+TEST(Window, moveEqualsRebuild) {
+    Window window(64);
+    std::mt19937 random(3);
+    glm::ivec3 origin(-3, 2, -11);
+    for (int step = 0; step < 40; ++step) {
+        window.update(origin, {}, false, noise);
+        expectSame(window, origin, noise);
+        origin += glm::ivec3(int(random() % 5) - 2, int(random() % 5) - 2, int(random() % 23) - 11);
+    }
+}
+
+TEST(Window, moveWritesTheSlabThatEntered) {
+    Window window(64);
+    window.update(glm::ivec3(0), {}, false, noise);
+    EXPECT_EQ(window.takeChanged(false).size(), 512u);
+    window.update(glm::ivec3(1, 0, 0), {}, false, noise);
+    const std::vector<uint32_t> taken = window.takeChanged(false);
+    EXPECT_EQ(taken.size(), 64u);
+    for (const uint32_t address : taken) EXPECT_EQ(address / 64, 0u);  // where x = 0 stood, now x = 8
+    window.update(glm::ivec3(1, 0, 0), {}, false, noise);
+    EXPECT_TRUE(window.takeChanged(false).empty());
+    EXPECT_EQ(window.takeChanged(true).size(), 512u);
+}
+
+TEST(Window, changesAreWrittenWhereTheyDiffer) {
+    Window window(64);
+    bool second = false;
+    const auto compose = [&](const glm::ivec3& place, Brick& out) {
+        noise(place, out);
+        if (second && place == glm::ivec3(2, 3, 4)) out.words[5] ^= 1;
+    };
+    window.update(glm::ivec3(0), {}, false, compose);
+    window.takeChanged(false);
+    second = true;
+    const std::vector<glm::ivec3> changed{{2, 3, 4}, {2, 3, 4}, {2, 3, 5}, {100, 0, 0}};
+    window.update(glm::ivec3(0), changed, false, compose);
+    EXPECT_EQ(window.takeChanged(false), (std::vector<uint32_t>{(2 * 8 + 3) * 8 + 4}));
+    expectSame(window, glm::ivec3(0), compose);
+}
+
+TEST(Window, staysAroundTheEyeAndWithinTheWorld) {
+    const glm::vec3 low(-50, 0, -2), high(50, 4, 2);
+    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {0, 1, 0}), glm::ivec3(-4, -1, -2 - 1));  // y, z: the world fits, in the middle
+    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {-50, 1, 0}).x, -50);
+    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {80, 1, 0}).x, 51 - 8);
+    const glm::ivec3 far = voxel::windowOrigin(512, 1e-3, glm::vec3(-1e30f), glm::vec3(1e30f), glm::vec3(1e30f));
+    EXPECT_LE(far.x + 64, voxel::kMostCell / 8);
+}
+
+}  // namespace
+}  // namespace obscura::test
