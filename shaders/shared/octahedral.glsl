@@ -3,18 +3,19 @@
 #ifndef OBSCURA_OCTAHEDRAL_GLSL
 #define OBSCURA_OCTAHEDRAL_GLSL
 
-uint packNormal(vec3 n) {
+vec2 toOctahedron(vec3 n) {
     n /= abs(n.x) + abs(n.y) + abs(n.z);
     vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    return packSnorm2x16(n.z >= 0.0 ? n.xy : folded);
+    return n.z >= 0.0 ? n.xy : folded;
 }
-
-vec3 unpackNormal(uint bits) {
-    vec2 e = unpackSnorm2x16(bits);
+vec3 fromOctahedron(vec2 e) {
     vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
     float t = max(-n.z, 0.0);
     n.xy -= vec2(n.x >= 0.0 ? t : -t, n.y >= 0.0 ? t : -t);
     return normalize(n);
 }
+
+uint packNormal(vec3 n) { return packSnorm2x16(toOctahedron(n)); }
+vec3 unpackNormal(uint bits) { return fromOctahedron(unpackSnorm2x16(bits)); }
 
 #endif

@@ -61,19 +61,33 @@ protected:
         EXPECT_TRUE(bool(visibility));
         if (!visibility) return {};
         const uint32_t width = frame.size.width - 2 * frame.guard.width, height = frame.size.height - 2 * frame.guard.height;
-        gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(m_device, uint64_t(width) * height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
-        const graph::BufferId target = m_graph->import("back", back, graph::Graph::Shared::written);
-        m_graph->pass("read back").use(visibility, graph::Access::transferRead).use(target, graph::Access::transferWrite)
-            .record([&, visibility](const graph::PassContext& c) {
-                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
-                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
-            });
+        gpu::Buffer back, probe;
+        const auto readBack = [&](graph::ImageId image, gpu::Buffer& buffer) {
+            const gpu::ImageDesc desc = m_graph->desc(image);
+            EXPECT_EQ(gpu::Buffer::create(m_device, uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", buffer), gpu::Status::ok);
+            const graph::BufferId target = m_graph->import("back", buffer, graph::Graph::Shared::written);
+            m_graph->pass("read back").use(image, graph::Access::transferRead).use(target, graph::Access::transferWrite).keep()
+                .record([image, desc, to = buffer.handle()](const graph::PassContext& c) {
+                    const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {desc.width, desc.height, 1}};
+                    c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &region);
+                });
+        };
+        graph::ImageId probed;
+        for (const auto& written : m_graph->written())
+            if (m_graph->name(written.image) == m_probe) probed = written.image;
+        EXPECT_TRUE(m_probe.empty() || probed) << m_probe;
+        readBack(visibility, back);
+        if (probed) readBack(probed, probe);
         m_passes.clear();
         for (const auto& written : m_graph->written()) m_passes.insert(written.pass);
         gpu::Status status = gpu::Status::ok;
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph->execute(cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
+        if (probed) {
+            m_probed = {m_graph->desc(probed).width, m_graph->desc(probed).height, {}};
+            m_probed.words.resize(size_t(m_probed.width) * m_probed.height);
+            std::memcpy(m_probed.words.data(), probe.mapped(), m_probed.words.size() * 4);
+        }
         std::vector<uint16_t> half(size_t(width) * height);
         std::memcpy(half.data(), back.mapped(), half.size() * 2);
         Picture result;
@@ -87,6 +101,12 @@ protected:
     std::unique_ptr<graph::Graph> m_graph;
     std::unique_ptr<ao::Library> m_library;
     std::set<std::string> m_passes;  // of the last run
+    std::string m_probe;             // an image, of 32-bit texels, that a pass writes: run() keeps it in m_probed
+    struct {
+        uint32_t width = 0, height = 0;
+        std::vector<uint32_t> words;
+        uint32_t at(uint32_t x, uint32_t y) const { return words.at(size_t(y) * width + x); }
+    } m_probed;
 };
 
 inline double mean(const Picture& picture) {
