@@ -12,6 +12,7 @@ namespace obscura::ao {
 MethodEntry noneEntry();
 MethodEntry hbaoEntry();
 MethodEntry horizonSplitEntry();
+MethodEntry multiResolutionEntry();
 
 namespace {
 
@@ -36,7 +37,7 @@ struct Composed {
 
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
-        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry()};
+        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

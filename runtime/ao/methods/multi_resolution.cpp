@@ -1,0 +1,201 @@
+// Multi-resolution ambient occlusion [Hoang and Low: Efficient Screen-Space Approach to High-Quality Multi-Scale Ambient
+// Occlusion, The Visual Computer 2012]. Depth and normals are halved level by level; each level looks at a few texels
+// around, so that coarse ones see far and fine ones see creases; from the coarsest to the finest, levels join:
+//     c1 = max(own mean, far c1)   c2 = own sum + far c2   c3 = own number + far c3                    [eq. 10]
+//     A = 1 - (1 - c1) (1 - c2 / c3)                                                                   [eq. 11]
+// where "far" is the next coarser level, filtered and upsampled by a joint bilateral filter.
+//
+// Where the paper is silent, or other than this:
+// - Radii follow its text, the finest level has the whole projected reach [eq. 5 halves it]; `first_radius` 0.5 is eq. 5.
+// - Bilateral weights are normalised [table 4 leaves it out], lengths count in the falloff's reach: tolerance and threshold
+//   are 1 m at the paper's reach of 2 m, so the method works at any scale.
+// - Levels keep depth, not positions: what stands for a block is carried along its tangent plane to the block's middle.
+// - The falloff is the shared type; the paper's own is quadratic.
+// Where it goes further (the preset `paper` has none of it): samples count with their squared cosine, the share of the
+// hemisphere below them, so that low neighbours do not drown what stands high; obscurance has a direction, so that a coarse
+// level's shows the normals of the fine one; surfaces are told apart by the tangent plane.
+//
+// Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes, as in the paper's
+// table 7: downsample (n-1 times), sample (n), filter and upsample (n-1 each). Samples of all levels wait for nothing but
+// their level, so a GPU may run them side by side.
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "ao/method.h"
+
+namespace obscura::ao {
+namespace {
+
+struct DownsampleConstants {
+    shared::ivec2 size, coarseSize;
+    float texel;      // px
+    float threshold;  // metres
+};
+struct SampleConstants {
+    shared::FalloffBlock falloff;
+    shared::ivec2 size, origin, area;
+    float texel;      // px
+    float reach;      // over the falloff's
+    float maxRadius;  // texels
+    float gain;
+    uint32_t disk;
+};
+struct FilterConstants {
+    shared::ivec2 origin, area;
+    float texel, perTolerance;  // px, 1 / metres
+    uint32_t planes;
+};
+struct UpsampleConstants {
+    shared::ivec2 origin, area, coarseOrigin, coarseArea;
+    float texel, perTolerance;
+    uint32_t planes;
+};
+
+const char* const kPatterns[] = {"every other texel", "disk"};
+enum : uint32_t { kMean, kDirected };
+const char* const kEstimates[] = {"mean cosine", "directed"};
+const char* const kEdges[] = {"depth", "plane"};
+const Parameter kParameters[] = {
+    {"levels", "", 2, 6, 5, true, {}, "Resolutions, n; each one more doubles how far samples reach and costs a quarter of the one before."},
+    {"max_radius", "texels", 1, 16, 7, false, {}, "Longest reach of samples in each level, r_max; beyond the paper's 5 the same samples lie further apart."},
+    {"first_radius", "", 0.25f, 2, 1, false, {}, "Reach at the finest level over the falloff's own; it halves from level to level. 0.5 is the paper's equation 5."},
+    {"finest", "", 0, 1, 1, true, {kPatterns, 2}, "Where the finest level samples: up to 36 texels of a square, or 16 points on a disk."},
+    {"obscurance", "", 0, 1, 1, true, {kEstimates, 2}, "What samples add up to: a mean of cosines as in the paper, or squared cosines with a direction, which fine levels evaluate along their own normals."},
+    {"gain", "", 0, 4, 1.7f, false, {}, "Factor on each level's obscurance."},
+    {"threshold", "R", 0, 1000, 0.05f, false, {}, "Four texels become their median, or the second nearest if they lie further apart than this many reaches. 0: always the latter."},
+    {"edges", "", 0, 1, 1, true, {kEdges, 2}, "How the bilateral filter tells surfaces apart: by depth as in the paper, or by distance from the tangent plane, which leaves slanted floors whole."},
+    {"tolerance", "R", 0.001f, 1000, 0.1f, false, {}, "The distance it takes for another surface, in reaches."},
+};
+const Setting kPaper[] = {{"levels", 4}, {"max_radius", 5}, {"obscurance", kMean}, {"gain", 1}, {"threshold", 0.5f}, {"edges", 0}, {"tolerance", 0.5f},
+                          {"temporal", 0.5f}, {"temporal_clip", 0}};
+const Setting kFast[] = {{"levels", 3}};
+const Setting kQuality[] = {{"finest", 0}, {"gain", 1.8f}};
+const Preset kPresets[] = {
+    {"default", "5 levels, directed obscurance; tuned on Sponza, the atrium, the dragon and the toasters.", {}},
+    {"paper", "As published: 4 levels, r_max 5, 16 points at the finest, half of the past where there are motion vectors.", {kPaper, std::size(kPaper)}},
+    {"fast", "3 levels: creases and contacts only.", {kFast, std::size(kFast)}},
+    {"quality", "5 levels, 36 samples at the finest.", {kQuality, std::size(kQuality)}},
+};
+const MethodInfo kInfo{"multi_resolution",
+                       "Multi-resolution ambient occlusion",
+                       "Hoang, Low: Efficient Screen-Space Approach to High-Quality Multi-Scale Ambient Occlusion, The Visual Computer 2012",
+                       "Few samples at each of several resolutions, joined from coarse to fine; free of noise.",
+                       kDepth | kNormals,
+                       {kParameters, std::size(kParameters)},
+                       {kPresets, std::size(kPresets)}};
+
+struct Obscurance {  // see levels.glsl
+    graph::ImageId numbers, directions;  // R32UI; directions are one texel where there are none
+};
+
+struct Level {
+    graph::ImageId depth, normals;
+    Obscurance obscurance;
+    shared::ivec2 size, origin, area;  // texels; obscurance is known in the area
+    float texel;                       // px
+};
+
+// The next coarser level, whose area is what upsampling the finer one's reads and one texel more for the filter.
+Level coarser(const Level& fine) {
+    Level result{{}, {}, {}, {(fine.size.x + 1) / 2, (fine.size.y + 1) / 2}, {}, {}, fine.texel * 2.0f};
+    const auto cover = [](int32_t size, int32_t origin, int32_t area, int32_t& coarseOrigin, int32_t& coarseArea) {
+        coarseOrigin = std::max((origin + 1) / 2 - 2, 0);
+        coarseArea = std::min((origin + area) / 2 + 2, size) - coarseOrigin;
+    };
+    cover(result.size.x, fine.origin.x, fine.area.x, result.origin.x, result.area.x);
+    cover(result.size.y, fine.origin.y, fine.area.y, result.origin.y, result.area.y);
+    return result;
+}
+
+class MultiResolution final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<MultiResolution>();
+        const auto make = [&](const char* name, std::initializer_list<gpu::Constant> constants, gpu::Program& out) {
+            return gpu::Program::compute(device, shaders, name, constants, out) == gpu::Status::ok;
+        };
+        bool made = make("ao/multi_resolution/downsample.comp", {}, result->m_downsample);
+        for (const uint32_t directed : {0u, 1u}) {
+            Programs& programs = result->m_programs[directed];
+            made = made && make("ao/multi_resolution/sample.comp", {{0, directed}}, programs.sample) && make("ao/multi_resolution/filter.comp", {{0, directed}}, programs.filter) &&
+                   make("ao/multi_resolution/combine.comp", {{0, directed}}, programs.combine) && make("ao/multi_resolution/finish.comp", {{0, directed}}, programs.finish);
+        }
+        return made ? std::move(result) : nullptr;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        const shared::View& view = inputs.view;
+        const float reach = inputs.falloff.reach, perTolerance = 1.0f / (values["tolerance"] * reach);
+        const uint32_t planes = values.count("edges");
+        const bool directed = values.count("obscurance") == kDirected;
+        Programs& programs = m_programs[directed];
+        std::vector<Level> levels{{inputs.depth, inputs.normals, {}, {int32_t(view.size.x), int32_t(view.size.y)},
+                                   {int32_t(view.guard.x), int32_t(view.guard.y)}, {int32_t(view.visible.x), int32_t(view.visible.y)}, 1.0f}};
+        while (levels.size() < values.count("levels")) levels.push_back(downsample(graph, inputs, levels.back(), values["threshold"] * reach));
+
+        for (size_t i = levels.size(); i-- > 0;) {
+            Level& level = levels[i];
+            level.obscurance = obscurance(graph, "near", level, directed && i > 0);
+            const SampleConstants constants{inputs.falloff, level.size, level.origin, level.area, level.texel, values["first_radius"], values["max_radius"],
+                                            values["gain"], i == 0 ? values.count("finest") : 0};
+            graph.pass(named("sample", level), programs.sample).read(inputs.viewBlock).read(level.depth).read(level.normals)
+                .write(level.obscurance.numbers).write(level.obscurance.directions).constants(constants).dispatch(uint32_t(level.area.x), uint32_t(level.area.y));
+        }
+        graph::ImageId visibility;
+        for (size_t i = levels.size() - 1; i-- > 0;) {
+            Level &fine = levels[i], &coarse = levels[i + 1];
+            const Obscurance filtered = obscurance(graph, "filtered", coarse, directed);
+            graph.pass(named("filter", coarse), programs.filter).read(inputs.viewBlock).read(coarse.depth).read(coarse.normals)
+                .read(coarse.obscurance.numbers).read(coarse.obscurance.directions).write(filtered.numbers).write(filtered.directions)
+                .constants(FilterConstants{coarse.origin, coarse.area, coarse.texel, perTolerance, planes})
+                .dispatch(uint32_t(coarse.area.x), uint32_t(coarse.area.y));
+            graph::Pass& upsample = graph.pass(named("upsample", fine), i ? programs.combine : programs.finish);
+            upsample.read(inputs.viewBlock).read(fine.depth).read(fine.normals).read(fine.obscurance.numbers)
+                .read(coarse.depth).read(coarse.normals).read(filtered.numbers).read(filtered.directions);
+            if (i) {
+                const Obscurance joined = obscurance(graph, "joined", fine, directed);
+                upsample.read(fine.obscurance.directions).write(joined.numbers).write(joined.directions);
+                fine.obscurance = joined;
+            } else {
+                visibility = graph.image("multi_resolution.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
+                upsample.write(visibility);
+            }
+            upsample.constants(UpsampleConstants{fine.origin, fine.area, coarse.origin, coarse.area, fine.texel, perTolerance, planes})
+                .dispatch(uint32_t(fine.area.x), uint32_t(fine.area.y));
+        }
+        return visibility;
+    }
+
+private:
+    struct Programs {
+        gpu::Program sample, filter, combine, finish;
+    };
+
+    static std::string named(const char* what, const Level& level) { return std::string("multi_resolution.") + what + " 1/" + std::to_string(int(level.texel)); }
+
+    static Obscurance obscurance(graph::Graph& graph, const char* what, const Level& level, bool directed) {
+        const uint32_t width = uint32_t(level.area.x), height = uint32_t(level.area.y);
+        return {graph.image(named(what, level), {VK_FORMAT_R32_UINT, width, height}),
+                graph.image(named(what, level) + " directions", {VK_FORMAT_R32_UINT, directed ? width : 1, directed ? height : 1})};
+    }
+
+    Level downsample(graph::Graph& graph, const Inputs& inputs, const Level& fine, float threshold) {
+        Level result = coarser(fine);
+        const uint32_t width = uint32_t(result.size.x), height = uint32_t(result.size.y);
+        result.depth = graph.image(named("depth", result), {VK_FORMAT_R32_SFLOAT, width, height});
+        result.normals = graph.image(named("normals", result), {VK_FORMAT_R32_UINT, width, height});
+        graph.pass(named("downsample", result), m_downsample).read(inputs.viewBlock).read(fine.depth).read(fine.normals).write(result.depth).write(result.normals)
+            .constants(DownsampleConstants{fine.size, result.size, fine.texel, threshold}).dispatch(width, height);
+        return result;
+    }
+
+    gpu::Program m_downsample;
+    Programs m_programs[2];  // [directed]
+};
+
+}  // namespace
+
+MethodEntry multiResolutionEntry() { return {&kInfo, &MultiResolution::create}; }
+
+}  // namespace obscura::ao

@@ -1,0 +1,19 @@
+// A level's own obscurance joined with that of all coarser levels. In: depth and packed normals of both, near of this one,
+// the filtered next one. Out: an Obscurance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/multi_resolution/upsample.glsl"
+layout(set = 0, binding = 8, r32ui) uniform readonly uimage2D nearDirections;
+layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D result;
+layout(set = 0, binding = 10, r32ui) uniform writeonly uimage2D resultDirections;
+
+void main() {
+    View view = viewBlock;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, area))) return;
+    Surface here = surfaceOf(view, (vec2(origin + p) + 0.5) * texel, imageLoad(depth, origin + p).x, imageLoad(normals, origin + p).x);
+    Obscurance own = unpacked(uvec2(imageLoad(near, p).x, kDirected ? imageLoad(nearDirections, p).x : 0u), here.n);
+    uvec2 bits = packed(combined(view, p, here, own), here.n);
+    imageStore(result, p, uvec4(bits.x));
+    if (kDirected) imageStore(resultDirections, p, uvec4(bits.y));
+}

@@ -1,0 +1,140 @@
+// What samples add up to and how levels join: the specification's properties, scale, and frames that are hard to bear.
+#include "multi_resolution/bench.h"
+
+namespace obscura::test {
+namespace {
+
+class Obscurance : public MultiResolutionTest {};
+
+std::vector<const char*> presets() {
+    std::vector<const char*> result;
+    for (const ao::Preset& preset : ao::findMethod("multi_resolution")->presets) result.push_back(preset.id);
+    return result;
+}
+
+TEST_F(Obscurance, ofAPlaneOfAnyTiltIsNone) {
+    for (const std::array<float, 3>& n : {std::array{0.0f, 1.0f, 0.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{1.0f, 0.1f, 0.2f}, std::array{0.3f, -0.2f, 1.0f}})
+        for (const char* preset : presets()) EXPECT_LT(highest(run(plane(n), values({}, preset))), 1e-5f) << preset << " " << n[0];
+}
+
+// Normals that do not belong to the wall see half of its samples above them, the same at every level: with m the mean over
+// the pattern, the maximum is m, the average is m, and A = 1 - (1 - m)^2 [eq. 11].
+TEST_F(Obscurance, joinsMaximumAndMean) {
+    float m = 0.0f;
+    for (int y = -5; y <= 5; y += 2)
+        for (int x = -5; x <= 5; x += 2) m += std::max(0.0f, 0.8f * float(x) / std::hypot(float(x), float(y))) / 36.0f;
+    const Room room = wall(3.0f, {0.8f, 0.0f, 0.6f});
+    const size_t middle = size_t(room.visibleHeight() / 2) * room.visibleWidth() + room.visibleWidth() / 2;
+    for (const float gain : {0.5f, 1.0f, 2.0f}) {
+        const Picture picture = run(room, values({{"levels", 3}, {"finest", 0}, {"gain", gain}}, "paper"), "constant:3");
+        EXPECT_NEAR(picture.at(middle), 1.0f - std::pow(1.0f - gain * m, 2.0f), 0.003f) << gain;
+    }
+    EXPECT_EQ(run(room, values({}, "paper"), "constant:0.001").at(middle), 0.0f) << "no samples at any level";
+}
+
+// A pixel at the bottom of a shaft: all its own samples stand straight above it.
+TEST_F(Obscurance, blockedAllAroundIsOneAndNotMore) {
+    Room room = wall(1.0f);
+    const uint32_t x = room.width / 2, y = room.height / 2;
+    room.depth[size_t(y) * room.width + x] = 4.0f;
+    for (const char* preset : presets()) {
+        const Picture picture = run(room, values({}, preset), "constant:5");
+        EXPECT_GT(picture.at(size_t(y - room.guard) * room.visibleWidth() + x - room.guard), 0.98f) << preset;
+        EXPECT_LE(highest(picture), 1.0f);
+    }
+}
+
+TEST_F(Obscurance, isNeverLessThanItsOwnLevelsMean) {
+    const Room room = hall();
+    for (const char* preset : presets()) {
+        look("near", 1);
+        const Picture picture = run(room, values({}, preset));
+        float most = 0.0f;
+        for (uint32_t y = 0; y < room.visibleHeight(); ++y)
+            for (uint32_t x = 0; x < room.visibleWidth(); ++x) {
+                ASSERT_GE(picture.at(size_t(y) * room.visibleWidth() + x), mostAt(x, y) - 0.001f) << preset;
+                most = std::max(most, mostAt(x, y));
+            }
+        EXPECT_GT(most, 0.1f);
+    }
+}
+
+// Four rows of the floor from the wall on: a CPU prototype with another disk has .442, .288, .279, .106, exact are .454, .315,
+// .211, .082.
+TEST_F(Obscurance, ofFloorAndWallIsThePrototypes) {
+    const Room room = hall();
+    const Picture picture = run(room, values({}, "paper"));
+    const std::array<std::pair<uint32_t, float>, 4> rows = {{{119, 0.442f}, {120, 0.288f}, {121, 0.279f}, {123, 0.106f}}};
+    for (const auto& [row, expected] : rows) {
+        double sum = 0.0;
+        const uint32_t middle = room.visibleWidth() / 2;
+        for (uint32_t x = middle - 10; x < middle + 10; ++x) sum += double(picture.at(size_t(row) * room.visibleWidth() + x)) / 20.0;
+        EXPECT_NEAR(float(sum), expected, 0.05f) << row;
+    }
+}
+
+// A wall too far for the fine level; below it floor pixels whose normals lean to it and away from it by turns. What the
+// coarse levels see of the wall has to be told apart by the fine normals.
+TEST_F(Obscurance, directedFollowsTheFineNormal) {
+    Room room = hall();
+    const uint32_t row = uint32_t(90.0f + 155.885f * 1.5f / 7.0f) + room.guard;
+    for (uint32_t y = 0; y < room.height; ++y)
+        for (uint32_t x = 0; x < room.width; ++x) {
+            float* n = &room.normals[4 * (size_t(y) * room.width + x)];
+            if (n[1] > 0.5f) n[1] = 0.99f, n[2] = x & 1 ? 0.14f : -0.14f;
+        }
+    const auto contrast = [&](float directed) {
+        const Picture picture = run(room, values({{"levels", 5}, {"obscurance", directed}}, "paper"));
+        const size_t i = size_t(row - room.guard) * room.visibleWidth() + 160;  // 160 + guard is even: leans away from the camera, to the wall
+        EXPECT_GT(picture.at(i), 0.0f);
+        return picture.at(i) / picture.at(i + 1);
+    };
+    EXPECT_GT(contrast(1), 1.3f * contrast(0));
+}
+
+// The same picture in metres and in centimetres.
+TEST_F(Obscurance, isTheSameAtAHundredTimesTheScale) {
+    for (const char* preset : presets()) {
+        Room room = hall();
+        for (uint32_t y = 90; y < 150; ++y)  // a box before the wall, so that there are edges
+            for (uint32_t x = 120; x < 180; ++x) room.depth[size_t(y) * room.width + x] = 5.5f, room.normals[4 * (size_t(y) * room.width + x) + 1] = 0.0f, room.normals[4 * (size_t(y) * room.width + x) + 2] = 1.0f;
+        const Picture metres = run(room, values({}, preset), "quadratic:2");
+        for (float& z : room.depth) z *= 100.0f;
+        ao::Frame frame = room.frame();
+        frame.skyDepth *= 100.0f;
+        const Picture centimetres = run(room, frame, values({}, preset), "quadratic:200");
+        EXPECT_GT(highest(metres), 0.3f);
+        for (size_t i = 0; i < metres.size(); ++i) ASSERT_NEAR(metres[i], centimetres[i], 1.0f / 255.0f) << preset;
+    }
+}
+
+TEST_F(Obscurance, bearsSkyOddSizesAndTinyPictures) {
+    for (const auto& [width, height, guard] : {std::array{161u, 97u, 8u}, std::array{8u, 8u, 0u}, std::array{9u, 13u, 1u}, std::array{63u, 130u, 0u}, std::array{1u, 1u, 0u}})
+        for (const bool sky : {false, true})
+            for (const char* preset : presets()) {
+                Room room;
+                room.width = width;
+                room.height = height;
+                room.guard = guard;
+                room.wall = -3.0f;
+                room.build();
+                if (sky) std::fill(room.depth.begin(), room.depth.end(), 1e4f);
+                for (const float levels : {2.0f, 6.0f})
+                    for (const float v : run(room, values({{"levels", levels}}, preset))) ASSERT_TRUE(sky ? v == 0.0f : v >= 0.0f && v <= 1.0f) << width << " " << preset;
+            }
+}
+
+TEST_F(Obscurance, twiceIsTheSameToTheBit) {
+    const Room room = hall();
+    for (const char* preset : presets()) EXPECT_EQ(run(room, values({}, preset)), run(room, values({}, preset))) << preset;
+}
+
+// Each step is a pass, so that each has its time.
+TEST_F(Obscurance, hasItsStepsAsPasses) {
+    run(hall(), values({}, "fast"));
+    for (const char* pass : {"downsample 1/2", "downsample 1/4", "sample 1/1", "sample 1/2", "sample 1/4", "filter 1/2", "filter 1/4", "upsample 1/1", "upsample 1/2"})
+        EXPECT_TRUE(m_passes.count(std::string("multi_resolution.") + pass)) << pass;
+}
+
+}  // namespace
+}  // namespace obscura::test
