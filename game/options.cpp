@@ -1,12 +1,12 @@
 #include "options.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/arguments.h"
 #include "app/complaint.h"
 #include "keys.h"
 
@@ -16,42 +16,16 @@ using app::Complaint;
 
 namespace {
 
-// All of `text` as numbers between the separators; empty when it is anything else.
-std::vector<float> numbers(const std::string& text, char separator) {
-    std::vector<float> list;
-    const char* at = text.data();
-    const char* end = at + text.size();
-    while (true) {
-        float value = 0.0f;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || !std::isfinite(value)) return {};
-        list.push_back(value);
-        if (next == end) return list;
-        if (*next != separator || next + 1 == end) return {};
-        at = next + 1;
-    }
-}
-
 glm::vec3 vectorOf(const char* option, const std::string& text) {
-    const std::vector<float> list = numbers(text, ',');
+    const std::vector<float> list = app::numbers(text, ',');
     if (list.size() != 3) throw Complaint(fmt::format("{} {}: write three numbers with commas, metres: 1.5,1.7,-2", option, text));
     return {list[0], list[1], list[2]};
-}
-
-VkExtent2D sizeOf(const std::string& text) {
-    const std::vector<float> list = numbers(text, 'x');
-    constexpr float kLeast = 16.0f, kMost = 8192.0f;
-    for (const float side : list)
-        if (list.size() != 2 || side != std::floor(side) || side < kLeast || side > kMost)
-            throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels", text, kLeast, kMost));
-    if (list.size() != 2) throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, such as 1280x720", text));
-    return {uint32_t(list[0]), uint32_t(list[1])};
 }
 
 CameraChoice cameraOf(const std::string& text) {
     CameraChoice camera;
     if (text.starts_with("scene:")) {
-        const std::vector<float> index = numbers(text.substr(6), ',');
+        const std::vector<float> index = app::numbers(text.substr(6), ',');
         if (index.size() != 1 || index[0] < 0.0f || index[0] != std::floor(index[0]))
             throw Complaint(fmt::format("--camera {}: write scene:N, N counting the file's cameras from 0", text));
         camera.kind = CameraChoice::Kind::lens;
@@ -61,7 +35,7 @@ CameraChoice cameraOf(const std::string& text) {
         const size_t mark = text.rfind('@');
         camera.file = text.substr(5, mark == std::string::npos ? mark : mark - 5);
         if (mark != std::string::npos) {
-            const std::vector<float> at = numbers(text.substr(mark + 1), ',');
+            const std::vector<float> at = app::numbers(text.substr(mark + 1), ',');
             if (at.size() != 1) throw Complaint(fmt::format("--camera {}: after @ comes a time in seconds", text));
             camera.at = at[0];
         }
@@ -70,23 +44,6 @@ CameraChoice cameraOf(const std::string& text) {
         camera.file = text;
     }
     return camera;
-}
-
-// CLI11 says what is wrong; this adds what to do, in one line.
-[[noreturn]] void complain(const CLI::App& cli, const CLI::ParseError& error) {
-    std::string text = app::oneLine(error.what());
-    if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-        std::vector<std::string> known;
-        for (const CLI::Option* option : cli.get_options())
-            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-        const std::string said = app::oneLine(extras->what());
-        const std::string wrong = said.substr(said.find_last_of(':') == std::string::npos ? 0 : said.find_last_of(':') + 1);
-        const size_t first = wrong.find_first_not_of(' ');
-        const std::string word = first == std::string::npos ? said : wrong.substr(first, wrong.find(' ', first) - first);
-        const std::string near = app::nearest(word.substr(0, word.find('=')), known);
-        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
-    }
-    throw Complaint(text + " (obscura --help lists all options)");
 }
 
 }  // namespace
@@ -173,7 +130,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         std::puts(version.what());
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
-        complain(cli, error);
+        app::complain(cli, error);
     }
 
     if (listMethods) options.job = Job::listMethods;
@@ -181,7 +138,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     else if (listDevices) options.job = Job::listDevices;
     else if (headless) options.job = Job::headless;
     if (!std::isfinite(options.time)) throw Complaint("--time: must be a finite number of seconds");
-    if (!size.empty()) options.size = sizeOf(size);
+    if (!size.empty()) {
+        const glm::uvec2 wanted = app::sizeOf(size);
+        options.size = {wanted.x, wanted.y};
+    }
     if (*framesOption) options.frames = frames;
     if (*switchOption) options.switchTest = switchTest;
     options.vsync = !noVsync;

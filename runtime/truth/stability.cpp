@@ -84,24 +84,53 @@ Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before,
     return way;
 }
 
-Change change(const Correspondence& way, const Plane& now, const Plane& before, const Plane& referenceNow, const Plane& referenceBefore) {
-    expectPlanes({&now, &before, &referenceNow, &referenceBefore}, way.width, way.height);
-    double a = 0.0, r = 0.0, e = 0.0;
+Change change(const Correspondence& way, const Plane& now, const Plane& before, const Traced& referenceNow, const Traced& referenceBefore) {
+    expectPlanes({&now, &before, &referenceNow.visibility, &referenceBefore.visibility}, way.width, way.height);
+    // Variance of a pixel of the past: four independent ones, weighted.
+    const auto variance = [](const Traced& traced, glm::vec2 at) {
+        if (traced.error.values.empty()) return 0.0;
+        const glm::vec2 corner = glm::floor(at), part = at - corner;
+        double sum = 0.0;
+        for (int k = 0; k < 4; ++k) {
+            const double w = double(k & 1 ? part.x : 1.0f - part.x) * double(k >> 1 ? part.y : 1.0f - part.y);
+            const uint32_t x = uint32_t(std::clamp(int(corner.x) + (k & 1), 0, int(traced.error.width) - 1));
+            const uint32_t y = uint32_t(std::clamp(int(corner.y) + (k >> 1), 0, int(traced.error.height) - 1));
+            sum += w * w * double(traced.error.at(x, y)) * double(traced.error.at(x, y));
+        }
+        return sum;
+    };
+    double a = 0.0, e = 0.0;
+    std::vector<float> truth(way.same.size(), 0.0f);  // squared change less its variance
     Change result;
     for (size_t i = 0; i < way.same.size(); ++i) {
         if (!way.same[i]) continue;
         const double da = double(now.values[i]) - double(bilinear(before, way.at[i]));
-        const double dr = double(referenceNow.values[i]) - double(bilinear(referenceBefore, way.at[i]));
+        const double dr = double(referenceNow.visibility.values[i]) - double(bilinear(referenceBefore.visibility, way.at[i]));
+        const double own = referenceNow.error.values.empty() ? 0.0 : double(referenceNow.error.values[i]);
+        const double noise = own * own + variance(referenceBefore, way.at[i]);
         a += std::fabs(da);
-        r += std::fabs(dr);
-        e += (da - dr) * (da - dr);
+        e += (da - dr) * (da - dr) - noise;
+        truth[i] = float(dr * dr - noise);
         ++result.pixels;
     }
     if (result.pixels == 0) return result;
+    double r = 0.0;
+    for (uint32_t y = 0; y < way.height; ++y)
+        for (uint32_t x = 0; x < way.width; ++x) {
+            if (!way.same[size_t(y) * way.width + x]) continue;
+            double sum = 0.0, count = 0.0;
+            for (uint32_t v = y ? y - 1 : 0; v <= std::min(y + 1, way.height - 1); ++v)
+                for (uint32_t u = x ? x - 1 : 0; u <= std::min(x + 1, way.width - 1); ++u) {
+                    const size_t i = size_t(v) * way.width + u;
+                    sum += truth[i];
+                    count += way.same[i];
+                }
+            r += std::sqrt(std::max(0.0, sum / count));
+        }
     const double count = double(result.pixels);
     result.difference = float(a / count);
     result.referenceDifference = float(r / count);
-    result.flickerOfError = float(std::sqrt(e / count));
+    result.flickerOfError = float(std::sqrt(std::max(0.0, e / count)));
     return result;
 }
 

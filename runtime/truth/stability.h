@@ -23,15 +23,21 @@ struct Correspondence {
 // Throws scene::Error when sizes differ or a frame has no camera or normals.
 Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before, std::span<const glm::vec2> motion);
 
+// A traced picture and each pixel's standard error (empty: exact). Its noise would count as change, so it is taken off.
+struct Traced {
+    Plane visibility, error;
+};
+
 // From one frame to the next, over Correspondence::same. All in visibility, 0 to 1.
 struct Change {
     size_t pixels = 0;
     float difference = 0.0f;           // D_A: mean |A_t(p) - A_{t-1}(p - v)|
-    float referenceDifference = 0.0f;  // D_R: the same of the reference: true obscurance changes too
+    float referenceDifference = 0.0f;  // D_R: of the reference, for true obscurance changes too: mean of the root of the 3x3
+                                       // mean of the squared change less its variance
     float excess() const { return difference - referenceDifference; }  // F
-    float flickerOfError = 0.0f;       // F_e: root mean square of e_t(p) - e_{t-1}(p - v), e = A - R
+    float flickerOfError = 0.0f;       // F_e: root mean square of e_t(p) - e_{t-1}(p - v), e = A - R, less the variance of R
 };
-Change change(const Correspondence& way, const Plane& now, const Plane& before, const Plane& referenceNow, const Plane& referenceBefore);
+Change change(const Correspondence& way, const Plane& now, const Plane& before, const Traced& referenceNow, const Traced& referenceBefore);
 
 // Of a camera and a scene that stand still: the standard deviation of every pixel over frames.
 class StaticNoise {

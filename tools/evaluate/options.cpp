@@ -1,12 +1,12 @@
 #include "options.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/arguments.h"
 #include "app/complaint.h"
 #include "content.h"
 
@@ -16,26 +16,6 @@ namespace fs = std::filesystem;
 using app::Complaint;
 
 namespace {
-
-std::optional<float> numberOf(std::string_view text) {
-    float value = 0.0f;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
-glm::uvec2 sizeOf(const std::string& text) {
-    const size_t mark = text.find('x');
-    constexpr float kLeast = 16.0f, kMost = 8192.0f;
-    glm::uvec2 size(0);
-    for (int i = 0; i < 2 && mark != std::string::npos; ++i) {
-        const auto side = numberOf(i ? std::string_view(text).substr(mark + 1) : std::string_view(text).substr(0, mark));
-        if (side && *side == std::floor(*side) && *side >= kLeast && *side <= kMost) size[i] = uint32_t(*side);
-    }
-    if (size.x == 0 || size.y == 0)
-        throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels, such as 640x360", text, kLeast, kMost));
-    return size;
-}
 
 ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::string& channel) {
     ReferenceChoice choice;
@@ -51,21 +31,6 @@ ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::st
     if (!channel.empty() && choice.file.empty())
         throw Complaint(fmt::format("--channel {}: names a channel of an EXR file; give one with --reference FILE.exr", channel));
     return choice;
-}
-
-// CLI11 says what is wrong; this adds what to do, in one line.
-[[noreturn]] void complain(const CLI::App& cli, const CLI::ParseError& error) {
-    std::string text = app::oneLine(error.what());
-    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
-        std::vector<std::string> known;
-        for (const CLI::Option* option : cli.get_options())
-            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-        const std::vector<std::string> extras = cli.remaining();
-        const std::string word = extras.empty() ? text : extras.front();
-        const std::string near = app::nearest(word.substr(0, word.find('=')), known);
-        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
-    }
-    throw Complaint(text + " (obscura-evaluate --help lists all options)");
 }
 
 void listMethods() {
@@ -105,18 +70,18 @@ CameraChoice cameraOf(const std::string& text) {
     camera.text = text;
     if (text == "own") return camera;
     if (text.starts_with("scene:")) {
-        const auto index = numberOf(text.substr(6));
-        if (!index || *index < 0.0f || *index != std::floor(*index) || *index > 1e6f)
+        const std::vector<float> index = app::numbers(text.substr(6), ',');
+        if (index.size() != 1 || index[0] < 0.0f || index[0] != std::floor(index[0]) || index[0] > 1e6f)
             throw Complaint(fmt::format("--camera {}: write scene:N, N counting the file's cameras from 0", text));
         camera.kind = CameraChoice::Kind::lens;
-        camera.lens = int(*index);
+        camera.lens = int(index[0]);
     } else if (text.starts_with("path:")) {
         const size_t mark = text.rfind('@');
-        const auto at = mark == std::string::npos ? std::nullopt : numberOf(text.substr(mark + 1));
-        if (!at) throw Complaint(fmt::format("--camera {}: write path:FILE.json@SECONDS, or path:@SECONDS for the scene's own flythrough", text));
+        const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
+        if (at.size() != 1) throw Complaint(fmt::format("--camera {}: write path:FILE.json@SECONDS, or path:@SECONDS for the scene's own flythrough", text));
         camera.kind = CameraChoice::Kind::path;
         camera.file = text.substr(5, mark - 5);
-        camera.at = *at;
+        camera.at = at[0];
     } else if (fs::path(text).extension() == ".json") {
         camera.kind = CameraChoice::Kind::file;
         camera.file = text;
@@ -214,7 +179,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     } catch (const CLI::CallForVersion& version) {
         std::puts(version.what());
         return std::nullopt;
-    } catch (const CLI::ParseError& error) { complain(cli, error); }
+    } catch (const CLI::ParseError& error) { app::complain(cli, error); }
     if (list || scenesListed) {
         list ? listMethods() : listScenes();
         return std::nullopt;
@@ -254,7 +219,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.reference = referenceOf(references, channel);
     if (*timeOption && !std::isfinite(time)) throw Complaint("--time: must be a finite number of seconds");
     if (*timeOption) options.time = time;
-    if (!size.empty()) options.size = sizeOf(size);
+    if (!size.empty()) options.size = app::sizeOf(size);
     options.rays.cache = !noCache;
     expectTogether(options, *scene || *timeOption || *sizeOption || *guard || *masked);
     return options;

@@ -35,6 +35,10 @@ struct Shot {
 using TakeShot = std::function<void(Shot&)>;
 void forEachShot(Machine& machine, const Options& options, const TakeShot& take);
 
+// A frame of render::Outputs as it was read back: linear depth and packed normals, `size` with guard band.
+truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
+                                   const std::vector<std::byte>& normals);
+
 // The two sources behind it.
 void captureShot(Machine& machine, const Options& options, const TakeShot& take);
 void sceneShots(Machine& machine, const Options& options, const TakeShot& take);

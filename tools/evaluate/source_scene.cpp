@@ -84,19 +84,6 @@ render::FrameOptions frameOptions(const Options& options, const scene::Camera& c
     return frame;
 }
 
-truth::CapturedFrame frameOf(const Options& options, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
-                             const std::vector<std::byte>& normals) {
-    truth::CapturedFrame frame = truth::emptyFrame(options.size, (size - options.size) / 2u, camera.fovY, camera.nearPlane, camera);
-    std::memcpy(frame.depth.data(), depth.data(), depth.size());
-    std::vector<uint32_t> packed(frame.depth.size());
-    std::memcpy(packed.data(), normals.data(), normals.size());
-    for (size_t i = 0; i < packed.size(); ++i) {
-        frame.depth[i] = std::min(frame.depth[i], frame.skyDepth);
-        frame.normals[i] = frame.isSky(i) ? glm::vec3(0.0f) : unpackNormal(packed[i]);
-    }
-    return frame;
-}
-
 // Draws the frame once, without obscurance, and reads it back.
 void capture(Machine& machine, const Options& options, const scene::World& world, const render::FrameOptions& wanted, Shot& shot) {
     const ao::Values none(*ao::methods()[0]);
@@ -109,13 +96,26 @@ void capture(Machine& machine, const Options& options, const scene::World& world
         size = {graph.desc(outputs.linearDepth).width, graph.desc(outputs.linearDepth).height};
         return std::vector{outputs.linearDepth, outputs.normals};
     });
-    shot.frame = frameOf(options, wanted.camera, size, ran.images[0], ran.images[1]);
+    shot.frame = capturedFrame(options.size, wanted.camera, size, ran.images[0], ran.images[1]);
     shot.frame.check(shot.scene + " " + shot.camera);
     for (const graph::PassTime& pass : ran.passes)
         if (!pass.name.starts_with("prepare.")) shot.framePasses.push_back(pass.name);
 }
 
 }  // namespace
+
+truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
+                                   const std::vector<std::byte>& normals) {
+    truth::CapturedFrame frame = truth::emptyFrame(visible, (size - visible) / 2u, camera.fovY, camera.nearPlane, camera);
+    std::memcpy(frame.depth.data(), depth.data(), depth.size());
+    std::vector<uint32_t> packed(frame.depth.size());
+    std::memcpy(packed.data(), normals.data(), normals.size());
+    for (size_t i = 0; i < packed.size(); ++i) {
+        frame.depth[i] = std::min(frame.depth[i], frame.skyDepth);
+        frame.normals[i] = frame.isSky(i) ? glm::vec3(0.0f) : unpackNormal(packed[i]);
+    }
+    return frame;
+}
 
 void expectScenes(const Options& options) {
     for (const std::string& scene : options.scenes) {

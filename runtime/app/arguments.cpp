@@ -1,0 +1,52 @@
+#include "app/arguments.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+
+namespace obscura::app {
+
+std::vector<float> numbers(const std::string& text, char separator) {
+    std::vector<float> list;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (true) {
+        float value = 0.0f;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || !std::isfinite(value)) return {};
+        list.push_back(value);
+        if (next == end) return list;
+        if (*next != separator || next + 1 == end) return {};
+        at = next + 1;
+    }
+}
+
+glm::uvec2 sizeOf(const std::string& text) {
+    constexpr float kLeast = 16.0f, kMost = 8192.0f;
+    const std::vector<float> list = numbers(text, 'x');
+    bool good = list.size() == 2;
+    for (const float side : list) good = good && side == std::floor(side) && side >= kLeast && side <= kMost;
+    if (!good)
+        throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels, such as 640x360", text, kLeast, kMost));
+    return {uint32_t(list[0]), uint32_t(list[1])};
+}
+
+void complain(const CLI::App& cli, const CLI::ParseError& error) {
+    std::string text = oneLine(error.what());
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        std::vector<std::string> known;
+        for (const CLI::Option* option : cli.get_options())
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        const std::vector<std::string> extras = cli.remaining();
+        const std::string word = extras.empty() ? text : extras.front();
+        const std::string near = nearest(word.substr(0, word.find('=')), known);
+        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
+    }
+    throw Complaint(fmt::format("{} ({} --help lists all options)", text, cli.get_name()));
+}
+
+}  // namespace obscura::app

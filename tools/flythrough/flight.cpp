@@ -1,0 +1,264 @@
+#include "flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "app/picture.h"
+#include "app/progress.h"
+#include "app/statistics.h"
+#include "shot.h"
+#include "truth/cache.h"
+#include "truth/world_reference.h"
+
+namespace obscura::flythrough {
+
+using app::Complaint;
+
+namespace {
+
+constexpr uint32_t kStillWarmUp = 32, kStillFrames = 32;
+
+// Values as they are, not encoded: what a number view shows.
+app::Picture grey(const truth::Plane& plane) {
+    app::Picture picture{plane.width, plane.height, {}};
+    for (const float v : plane.values) {
+        const uint8_t level = uint8_t(std::lround(255.0f * std::clamp(v, 0.0f, 1.0f)));
+        picture.rgba.insert(picture.rgba.end(), {level, level, level, 255});
+    }
+    return picture;
+}
+
+std::filesystem::path pictureFile(const std::filesystem::path& folder, uint32_t frame) { return folder / fmt::format("{:04}.png", frame); }
+
+}  // namespace
+
+const char* name(Filter filter) {
+    constexpr const char* kNames[] = {"raw", "spatial", "temporal"};
+    return kNames[size_t(filter)];
+}
+
+evaluate::Candidate filtered(const evaluate::Candidate& candidate, Filter filter) {
+    constexpr float kHistory = 0.9f;
+    evaluate::Candidate result = candidate;
+    if (filter == Filter::raw)
+        for (const char* blur : {"denoise", "blur"}) result.values.set(blur, 0.0f);
+    // A history that was asked for by name stays.
+    const bool asked = std::any_of(candidate.settings.begin(), candidate.settings.end(), [](const std::string& s) { return s.starts_with("temporal="); });
+    if (filter != Filter::temporal) result.values.set("temporal", 0.0f);
+    else if (!asked) result.values.set("temporal", kHistory);
+    return result;
+}
+
+Flight::Flight(evaluate::Machine& machine, const Script& script, const Settings& settings)
+    : m_machine(machine), m_settings(settings), m_stage(script), m_falloff(settings.falloff ? *settings.falloff : evaluate::falloffs({script.falloff})[0]) {
+    for (const Event& event : script.events)
+        if (event.frame > 0 && event.frame >= settings.first && event.frame < settings.end && (m_events.empty() || m_events.back() != event.frame))
+            m_events.push_back(event.frame);
+    if (machine.newRenderer().load(m_stage.worldAt(0)) != gpu::Status::ok)
+        throw Complaint(fmt::format("{}: cannot be uploaded to {}", script.scene, machine.deviceName()), app::kFailed);
+    draw();
+    trace();
+}
+
+render::FrameOptions Flight::options(uint32_t frame) const {
+    render::FrameOptions options;
+    options.visible = {m_settings.size.x, m_settings.size.y};
+    options.guard = m_settings.guard;
+    options.camera = m_stage.cameraAt(frame);
+    options.time = m_stage.worldTimeAt(frame);
+    options.falloff = m_falloff.falloff;
+    options.view = render::View::visibility;
+    return options;
+}
+
+uint32_t Flight::endOfState(uint32_t frame) const {
+    for (const Event& event : m_stage.script().events)
+        if (event.frame > frame) return std::min(event.frame, m_settings.length);
+    return m_settings.length;
+}
+
+void Flight::draw() {
+    const ao::Values none(*ao::methods()[0]);
+    uint32_t end = m_settings.end;
+    for (const uint32_t event : m_events) end = std::max(end, endOfState(event));
+    app::Progress progress("drawing " + m_stage.script().name, end);
+    for (uint32_t frame = 0; frame < end; ++frame) {
+        progress.at(frame);
+        glm::uvec2 size(0);
+        const evaluate::Machine::Ran ran = m_machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
+            render::FrameOptions wanted = options(frame);
+            wanted.method = &none;
+            wanted.cut = frame == 0;
+            const render::Outputs outputs = m_machine.renderer().add(graph, m_stage.worldAt(frame), wanted);
+            size = {graph.desc(outputs.linearDepth).width, graph.desc(outputs.linearDepth).height};
+            return std::vector{outputs.linearDepth, outputs.normals, outputs.motion};
+        });
+        Geometry geometry{evaluate::capturedFrame(m_settings.size, m_stage.cameraAt(frame), size, ran.images[0], ran.images[1]), {}, {}};
+        const truth::CapturedFrame& captured = geometry.frame;
+        std::vector<uint32_t> halves(captured.depth.size());
+        std::memcpy(halves.data(), ran.images[2].data(), ran.images[2].size());
+        for (const uint32_t both : halves) geometry.motion.push_back(glm::unpackHalf2x16(both));
+        captured.check(fmt::format("{} frame {}", m_stage.script().name, frame));
+        geometry.visible = captured.visibleMask();
+        m_geometry.push_back(std::move(geometry));
+        if (frame == 0)
+            for (const graph::PassTime& pass : ran.passes)
+                if (!pass.name.starts_with("prepare.")) m_framePasses.push_back(pass.name);
+    }
+}
+
+void Flight::trace() {
+    truth::ReferenceCache cache(m_settings.cache ? truth::ReferenceCache::defaultFolder() : std::filesystem::path());
+    const std::vector<truth::RayFalloff> falloffs{truth::rayFalloff(m_falloff.falloff)};
+    truth::WorldOptions rays;
+    rays.minRays = rays.maxRays = m_settings.rays;
+    rays.targetError = 0.0f;
+    rays.seed = m_settings.seed;
+    const uint32_t begin = m_settings.first ? m_settings.first - 1 : 0;
+    m_references.resize(m_settings.end);
+    app::Progress progress("tracing " + m_stage.script().name, m_settings.end - begin);
+    for (uint32_t frame = begin; frame < m_settings.end; ++frame) {
+        progress.at(frame - begin);
+        const std::vector<scene::PosedPrimitive> primitives = scene::pose(m_stage.worldAt(frame), m_stage.worldTimeAt(frame));
+        const truth::Reference reference = cache.get(truth::worldKey(primitives, {}, m_geometry[frame].frame, falloffs, rays), [&] {
+            return truth::WorldReference(primitives).trace(m_geometry[frame].frame, falloffs, rays);
+        });
+        m_references[frame] = {reference.channels[0].obscurance, reference.channels[0].error};
+        for (float& v : m_references[frame].visibility.values) v = 1.0f - v;
+    }
+}
+
+std::string Flight::keyOf(const evaluate::Candidate& candidate, Filter filter) const {
+    truth::Hash hash;
+    const Script& script = m_stage.script();
+    hash.add(script.name).add(script.scene).add(m_falloff.text).add(m_settings.size.x).add(m_settings.size.y).add(m_settings.guard);
+    hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(std::string(candidate.info().id)).add(std::string(name(filter)));
+    const evaluate::Candidate used = filtered(candidate, filter);
+    for (const float value : used.values.values()) hash.add(value);
+    for (uint32_t frame = 0; frame < m_settings.length; ++frame) {
+        const scene::Camera camera = m_stage.cameraAt(frame);
+        for (const glm::vec3& v : {camera.eye, camera.target, camera.up}) hash.add(v.x).add(v.y).add(v.z);
+        hash.add(camera.fovY).add(m_stage.worldTimeAt(frame));
+    }
+    for (const Event& event : script.events)
+        hash.add(event.frame).add(event.box).add(&event.size, sizeof(event.size)).add(&event.at, sizeof(event.at)).add(int(event.gone));
+    hash.add(m_geometry[0].frame.depth.data(), m_geometry[0].frame.depth.size() * sizeof(float));  // stands for the scene
+    for (const gpu::EmbeddedShader& shader : ao::shaders()) hash.add(shader.spirv.data(), shader.spirv.size_bytes());  // and these for the methods
+    return hash.hex();
+}
+
+Part Flight::empty(const evaluate::Candidate& candidate, Filter filter) const {
+    Part part;
+    part.flythrough = m_stage.script().name;
+    part.method = candidate.info().id;
+    part.preset = candidate.preset;
+    for (const std::string& setting : candidate.settings) part.settings += (part.settings.empty() ? "" : " ") + setting;
+    part.filter = name(filter);
+    part.falloff = m_falloff.text;
+    part.width = m_settings.size.x;
+    part.height = m_settings.size.y;
+    part.rays = m_settings.rays;
+    part.first = m_settings.first;
+    part.end = m_settings.end;
+    part.key = keyOf(candidate, filter);
+    return part;
+}
+
+Flight::Drawn Flight::draw(const evaluate::Candidate& candidate, uint32_t frame, bool cut) {
+    evaluate::Machine::Ran ran = m_machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
+        render::FrameOptions wanted = options(frame);
+        wanted.method = &candidate.values;
+        wanted.cut = cut;
+        return std::vector{m_machine.renderer().add(graph, m_stage.worldAt(frame), wanted).visibility};
+    });
+    Drawn drawn{truth::Plane(m_settings.size.x, m_settings.size.y), {}};
+    const std::vector<std::byte>& bytes = ran.images[0];
+    for (size_t i = 0; i < drawn.visibility.pixels(); ++i) {
+        uint16_t half;
+        std::memcpy(&half, bytes.data() + 2 * i, 2);
+        drawn.visibility.values[i] = glm::unpackHalf1x16(half);
+        if (!std::isfinite(drawn.visibility.values[i]))
+            throw Complaint(fmt::format("{} drew {} in frame {} of {}", candidate.label(), drawn.visibility.values[i], frame, m_stage.script().name), app::kFailed);
+    }
+    for (graph::PassTime& pass : ran.passes)
+        if (std::find(m_framePasses.begin(), m_framePasses.end(), pass.name) == m_framePasses.end()) drawn.passes.push_back(std::move(pass));
+    return drawn;
+}
+
+Part Flight::measure(const evaluate::Candidate& chosen, Filter filter) {
+    const evaluate::Candidate candidate = filtered(chosen, filter);
+    Part part = empty(chosen, filter);
+    m_machine.expectMethod(m_machine.renderer().library(), candidate.info());
+    const std::filesystem::path folder = m_settings.out / "frames" / part.name();
+    if (m_settings.pictures) {
+        part.pictures = "frames/" + part.name();
+        app::expectFolder(folder);
+    }
+    std::map<std::string, app::Series> times;
+    std::vector<truth::Plane> pictures;
+    app::Progress progress(part.name(), m_geometry.size() + (m_settings.first == 0 ? kStillWarmUp + kStillFrames : 0));
+    for (uint32_t frame = 0; frame < m_geometry.size(); ++frame) {
+        progress.at(frame);
+        Drawn drawn = draw(candidate, frame, frame == 0);
+        pictures.push_back(std::move(drawn.visibility));
+        if (frame < m_settings.first || frame >= m_settings.end) continue;
+        const truth::Plane& picture = pictures.back();
+        const Geometry& geometry = m_geometry[frame];
+        for (const graph::PassTime& pass : drawn.passes) {
+            times[pass.name].name = pass.name;
+            times[pass.name].values.push_back(pass.milliseconds);
+        }
+        FrameRow row{.frame = frame, .time = m_stage.script().timeAt(frame)};
+        double error = 0.0, absolute = 0.0, square = 0.0;
+        size_t pixels = 0;
+        for (size_t i = 0; i < geometry.visible.size(); ++i) {
+            if (!geometry.visible[i]) continue;
+            const double e = double(picture.values[i]) - double(m_references[frame].visibility.values[i]);
+            error += e, absolute += std::fabs(e), square += e * e, ++pixels;
+        }
+        if (pixels) row.bias = float(error / double(pixels)), row.eA = float(absolute / double(pixels)), row.rmse = float(std::sqrt(square / double(pixels)));
+        if (frame > 0) {
+            const truth::Correspondence way = truth::correspond(geometry.frame, m_geometry[frame - 1].frame, geometry.motion);
+            const truth::Change change = truth::change(way, picture, pictures[frame - 1], m_references[frame], m_references[frame - 1]);
+            row.share = way.share();
+            row.difference = change.difference;
+            row.referenceDifference = change.referenceDifference;
+            row.flickerOfError = change.flickerOfError;
+        }
+        part.frames.push_back(row);
+        if (m_settings.pictures) app::writePng(pictureFile(folder, frame), grey(picture));
+    }
+    for (const uint32_t event : m_events) {
+        const std::span<const truth::Plane> after(pictures.begin() + event, pictures.begin() + endOfState(event));
+        const truth::Lag lag = truth::lag(pictures[event - 1], after, m_references[event - 1].visibility, m_references[event].visibility,
+                                          truth::stayed(m_geometry[event - 1].frame, m_geometry[event].frame));
+        part.events.push_back({event, uint32_t(lag.pixels), lag.t90, lag.ghost});
+    }
+    if (m_settings.first == 0) {
+        truth::StaticNoise noise;
+        for (uint32_t i = 0; i < kStillWarmUp + kStillFrames; ++i) {
+            progress.at(m_geometry.size() + i);
+            const Drawn drawn = draw(candidate, 0, i == 0);
+            if (i >= kStillWarmUp) noise.add(drawn.visibility);
+        }
+        const truth::StaticNoise::Result spread = noise.over(m_geometry[0].visible);
+        part.still = StaticRow{spread.mean, spread.p99};
+    }
+    for (const auto& [pass, series] : times) part.passes.push_back({pass, series.median(), series.p95()});
+    return part;
+}
+
+void Flight::writeReferencePictures() const {
+    const std::filesystem::path folder = m_settings.out / "frames" / (m_stage.script().name + ".reference");
+    app::expectFolder(folder);
+    for (uint32_t frame = m_settings.first; frame < m_settings.end; ++frame) app::writePng(pictureFile(folder, frame), grey(m_references[frame].visibility));
+}
+
+}  // namespace obscura::flythrough

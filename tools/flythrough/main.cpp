@@ -1,0 +1,108 @@
+// Reads the command line, flies, writes; turns every failure into one line and an exit code.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "options.h"
+#include "report.h"
+
+namespace obscura::flythrough {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> partFiles(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder / "parts", error))
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+void finish(const std::vector<Part>& parts, const std::string& device, const Options& options) {
+    std::fputs(table(parts).c_str(), stdout);
+    writeReport(parts, device, options.settings.out);
+    if (options.video) writeVideos(parts, options.settings.out);
+    fmt::print("{}\n", (options.settings.out / "report.html").string());
+}
+
+int fly(const Options& options) {
+    const fs::path& out = options.settings.out;
+    app::expectFolder(out / "parts");
+    evaluate::Machine machine({options.device, options.validation, options.verbose});
+    std::vector<Part> parts;
+    for (const std::string& name : options.flythroughs) {
+        Flight flight(machine, findScript(name), options.settings);
+        if (options.settings.pictures) flight.writeReferencePictures();
+        for (const evaluate::Candidate& candidate : options.candidates)
+            for (const Filter filter : options.filters) {
+                const Part wanted = flight.empty(candidate, filter);
+                const fs::path file = out / "parts" / fmt::format("{}.{}-{}.json", wanted.name(), wanted.first, wanted.end);
+                std::optional<Part> part = options.again ? std::nullopt : readPart(file);
+                if (!part || part->key != wanted.key) {
+                    part = flight.measure(candidate, filter);
+                    app::writeFile(file, partText(*part));
+                }
+                parts.push_back(std::move(*part));
+            }
+    }
+    finish(joined(std::move(parts)), machine.deviceName(), options);
+    return machine.device().validationMessages() ? app::kInvalidUse : 0;
+}
+
+int merge(const Options& options) {
+    const fs::path& out = options.settings.out;
+    app::expectFolder(out / "parts");
+    std::vector<Part> parts;
+    for (const fs::path& folder : options.merged) {
+        const std::vector<fs::path> files = partFiles(folder);
+        if (files.empty()) throw app::Complaint(fmt::format("--merge {}: holds no parts of a run; name folders that --out of earlier runs named", folder.string()));
+        for (const fs::path& file : files) {
+            const auto part = readPart(file);
+            if (!part) throw app::Complaint(fmt::format("{}: is damaged; fly these frames again", file.string()));
+            parts.push_back(*part);
+        }
+        std::error_code ignored;
+        if (fs::is_directory(folder / "frames", ignored) && !fs::equivalent(folder, out, ignored))
+            fs::copy(folder / "frames", out / "frames", fs::copy_options::recursive | fs::copy_options::update_existing);
+    }
+    parts = joined(std::move(parts));
+    for (const Part& part : parts) app::writeFile(out / "parts" / fmt::format("{}.{}-{}.json", part.name(), part.first, part.end), partText(part));
+    finish(parts, "", options);
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    const auto options = parseOptions(argc, argv);
+    if (!options) return 0;
+    switch (options->job) {
+        case Job::fly: return fly(*options);
+        case Job::merge: return merge(*options);
+        case Job::printJobs: std::fputs(jobList(*options).c_str(), stdout); return 0;
+        case Job::checkBaseline:
+        case Job::renewBaseline: break;
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace obscura::flythrough
+
+int main(int argc, char** argv) {
+    using namespace obscura;
+    try {
+        return flythrough::run(argc, argv);
+    } catch (const app::Complaint& complaint) {
+        std::fprintf(stderr, "obscura-flythrough: %s\n", app::oneLine(complaint.what()).c_str());
+        return complaint.code;
+    } catch (const scene::Error& error) {
+        std::fprintf(stderr, "obscura-flythrough: %s\n", app::oneLine(error.what()).c_str());
+        return app::kBadInput;
+    } catch (const std::exception& error) { std::fprintf(stderr, "obscura-flythrough: %s\n", app::oneLine(error.what()).c_str()); }
+    return app::kFailed;
+}

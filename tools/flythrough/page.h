@@ -1,0 +1,10 @@
+// The report's page/ files, embedded by the build (page.cpp is generated).
+#pragma once
+
+namespace obscura::flythrough {
+
+extern const char* const kPageHtml;  // with the marks /*STYLE*/, /*SCRIPT*/ and /*DATA*/
+extern const char* const kPageCss;
+extern const char* const kPageJs;
+
+}  // namespace obscura::flythrough

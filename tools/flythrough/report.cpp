@@ -1,0 +1,178 @@
+#include "report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "app/progress.h"
+#include "page.h"
+
+namespace obscura::flythrough {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Summary summarize(const Part& part) {
+    Summary s;
+    double steps = 0.0, worst = -1.0;
+    for (const FrameRow& row : part.frames) {
+        s.eA += row.eA;
+        s.bias += row.bias;
+        if (row.eA > worst) worst = row.eA, s.worst = row.frame;
+        if (row.frame == 0) continue;
+        s.difference += row.difference;
+        s.excess += row.difference - row.referenceDifference;
+        s.flickerOfError += row.flickerOfError;
+        ++steps;
+    }
+    const double frames = std::max<double>(1.0, double(part.frames.size()));
+    s.eA /= frames, s.bias /= frames;
+    if (steps > 0.0) s.difference /= steps, s.excess /= steps, s.flickerOfError /= steps;
+    if (part.still) s.noiseMean = part.still->mean, s.noiseP99 = part.still->p99;
+    for (const EventRow& row : part.events) s.t90 = std::max(s.t90, row.t90), s.ghost += row.ghost;
+    for (const PassRow& row : part.passes) s.milliseconds += row.median;
+    return s;
+}
+
+std::string table(const std::vector<Part>& parts) {
+    size_t width = 6;
+    for (const Part& part : parts) width = std::max(width, part.label().size());
+    std::string text, flythrough;
+    for (const Part& part : parts) {
+        if (part.flythrough != flythrough) {
+            flythrough = part.flythrough;
+            text += fmt::format("{}, {} x {} px, {}, frames {} to {}, {} rays\n  {:<{}}  filter        eA     bias      D_A   excess      F_e    noise    p99  T90   ghost       ms\n",
+                                flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, "method", width);
+        }
+        const Summary s = summarize(part);
+        text += fmt::format("  {:<{}}  {:<8}  {:.4f}  {:+.4f}   {:.4f}  {:+.4f}   {:.4f}  {:.5f}  {:.4f}  {:>3}  {:.4f}  {:7.2f}\n", part.label(), width, part.filter, s.eA,
+                            s.bias, s.difference, s.excess, s.flickerOfError, s.noiseMean, s.noiseP99, part.events.empty() ? "-" : std::to_string(s.t90), s.ghost,
+                            s.milliseconds);
+    }
+    return text;
+}
+
+namespace {
+
+Json summaryJson(const Part& part) {
+    const Summary s = summarize(part);
+    Json json{{"name", part.name()}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset}, {"settings", part.settings},
+              {"label", part.label()}, {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width}, {"height", part.height},
+              {"rays", part.rays}, {"pictures", part.pictures}, {"eA", s.eA}, {"bias", s.bias}, {"difference", s.difference}, {"excessFlicker", s.excess},
+              {"flickerOfError", s.flickerOfError}, {"noiseMean", s.noiseMean}, {"noiseP99", s.noiseP99}, {"milliseconds", s.milliseconds},
+              {"worstFrame", s.worst}};
+    if (!part.events.empty()) json["t90"] = s.t90, json["ghost"] = s.ghost;
+    json["passes"] = Json::array();
+    for (const PassRow& row : part.passes) json["passes"].push_back({{"name", row.name}, {"median", row.median}, {"p95", row.p95}});
+    json["frames"] = Json::array();
+    for (const FrameRow& r : part.frames)
+        json["frames"].push_back({{"frame", r.frame}, {"seconds", r.time}, {"eA", r.eA}, {"difference", r.difference},
+                                  {"excessFlicker", r.difference - r.referenceDifference}, {"flickerOfError", r.flickerOfError}});
+    json["events"] = Json::array();
+    for (const EventRow& r : part.events) json["events"].push_back({{"frame", r.frame}, {"pixels", r.pixels}, {"t90", r.t90}, {"ghost", r.ghost}});
+    return json;
+}
+
+void put(std::string& page, const std::string& mark, const std::string& content) {
+    const size_t at = page.find(mark);
+    if (at != std::string::npos) page.replace(at, mark.size(), content);
+}
+
+// Words for a shell.
+std::string shellWord(const fs::path& path) {
+    std::string text = "'";
+    for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+// To a temporary name, then renamed; false when ffmpeg failed.
+bool encode(const std::string& inputs, const std::string& filter, const fs::path& file) {
+    fs::path temporary = file;
+    temporary += ".part.mp4";
+    const std::string command = fmt::format("ffmpeg -hide_banner -loglevel error -nostdin -y {} {} -c:v libx264 -preset fast -crf 14 -pix_fmt yuv420p -threads 2 {} 1>&2",
+                                            inputs, filter, shellWord(temporary));
+    std::error_code ignored;
+    if (std::system(command.c_str()) != 0) {
+        fs::remove(temporary, ignored);
+        return false;
+    }
+    fs::rename(temporary, file, ignored);
+    return !ignored;
+}
+
+std::string sequence(const fs::path& folder, uint32_t first) {
+    return fmt::format("-framerate 30 -start_number {} -i {}", first, shellWord(folder / "%04d.png"));
+}
+
+}  // namespace
+
+void writeReport(const std::vector<Part>& parts, const std::string& device, const fs::path& out) {
+    app::writeFile(out / "frames.csv", framesCsv(parts));
+    app::writeFile(out / "events.csv", eventsCsv(parts));
+    app::writeFile(out / "static.csv", staticCsv(parts));
+    app::writeFile(out / "passes.csv", passesCsv(parts));
+    Json json{{"device", device}, {"parts", Json::array()}};
+    for (const Part& part : parts) json["parts"].push_back(summaryJson(part));
+    app::writeFile(out / "report.json", json.dump(1) + "\n");
+    std::string data = json.dump();
+    for (size_t at = 0; (at = data.find('<', at)) != std::string::npos;) data.replace(at, 1, "\\u003c");  // no tag ends the script
+    std::string page = kPageHtml;
+    put(page, "/*STYLE*/", kPageCss);
+    put(page, "/*SCRIPT*/", kPageJs);
+    put(page, "/*DATA*/", data);
+    app::writeFile(out / "report.html", page);
+}
+
+void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
+    if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {
+        fmt::print(stderr, "obscura-flythrough: no ffmpeg here, so no videos; install the package ffmpeg and run the same line again\n");
+        return;
+    }
+    std::map<std::string, std::vector<const Part*>> groups;
+    for (const Part& part : parts)
+        if (!part.pictures.empty()) groups[part.flythrough].push_back(&part);
+    app::Progress progress("encoding", parts.size() + groups.size());
+    size_t done = 0;
+    for (const auto& [flythrough, list] : groups) {
+        std::string inputs, scaled, stack;
+        int count = 0;
+        std::error_code ignored;
+        const auto add = [&](const fs::path& folder, uint32_t first) {
+            if (!fs::is_directory(folder, ignored)) return;
+            inputs += sequence(folder, first) + " ";
+            stack += fmt::format("[{}:v]", count++);
+        };
+        add(out / "frames" / (flythrough + ".reference"), list[0]->first);
+        for (const Part* part : list) {
+            progress.at(done++, part->name());
+            const fs::path folder = out / part->pictures;
+            // yuv420p wants even sides.
+            if (!encode(sequence(folder, part->first), "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2'", out / (part->name() + ".mp4")))
+                fmt::print(stderr, "obscura-flythrough: ffmpeg could not encode {}\n", folder.string());
+            add(folder, part->first);
+        }
+        progress.at(done++, flythrough);
+        if (count < 2) continue;
+        const int columns = count <= 4 ? 2 : count <= 9 ? 3 : 4;
+        std::string layout;
+        for (int i = 0; i < count; ++i) {
+            const auto times = [](const char* side, int n) {
+                std::string text = n ? "" : "0";
+                for (int k = 0; k < n; ++k) text += (k ? "+" : "") + std::string(side) + "0";
+                return text;
+            };
+            layout += fmt::format("{}{}_{}", i ? "|" : "", times("w", i % columns), times("h", i / columns));
+        }
+        if (!encode(inputs, fmt::format("-filter_complex '{}xstack=inputs={}:layout={}:fill=black,pad=ceil(iw/2)*2:ceil(ih/2)*2'", stack, count, layout),
+                    out / (flythrough + ".side-by-side.mp4")))
+            fmt::print(stderr, "obscura-flythrough: ffmpeg could not put {} side by side\n", flythrough);
+    }
+}
+
+}  // namespace obscura::flythrough

@@ -1,0 +1,154 @@
+#include "script.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "app/complaint.h"
+#include "content.h"
+#include "scene/json_file.h"
+
+namespace obscura::flythrough {
+
+using app::Complaint;
+
+namespace {
+
+Event eventOf(const scene::JsonAt& at) {
+    at.only({"frame", "box", "size", "at", "gone"});
+    Event event;
+    event.frame = uint32_t(at.at("frame").whole(0, 1u << 20));
+    event.box = at.at("box").text();
+    if (const auto gone = at.find("gone")) event.gone = gone->truth();
+    if (event.gone) return event;
+    event.size = scene::vector3(at.at("size"));
+    event.at = scene::vector3(at.at("at"));
+    if (glm::any(glm::lessThanEqual(event.size, glm::vec3(0.0f)))) at.at("size").fail("must be positive");
+    return event;
+}
+
+Script scriptOf(const scene::JsonAt& at) {
+    at.only({"name", "title", "scene", "camera", "path", "start", "framesPerSecond", "animated", "falloff", "events"});
+    Script script;
+    script.name = at.at("name").text();
+    script.title = at.at("title").text();
+    script.scene = at.at("scene").text();
+    if (const auto camera = at.find("camera")) {
+        camera->only({"eye", "target", "verticalFovDegrees"});
+        script.camera.emplace();
+        script.camera->eye = scene::vector3(camera->at("eye"));
+        script.camera->target = scene::vector3(camera->at("target"));
+        if (const auto fov = camera->find("verticalFovDegrees")) script.camera->fovY = float(glm::radians(fov->number(1.0, 170.0)));
+    } else {
+        script.path = at.at("path").text();
+    }
+    if (const auto start = at.find("start")) script.start = float(start->number(0.0, 1e6));
+    if (const auto rate = at.find("framesPerSecond")) script.framesPerSecond = float(rate->number(1.0, 1000.0));
+    if (const auto animated = at.find("animated")) script.animated = animated->truth();
+    if (const auto falloff = at.find("falloff")) script.falloff = falloff->text();
+    if (const auto events = at.find("events")) {
+        events->expectArray();
+        for (size_t i = 0; i < events->size(); ++i) script.events.push_back(eventOf(events->at(i)));
+        if (!std::is_sorted(script.events.begin(), script.events.end(), [](const Event& a, const Event& b) { return a.frame < b.frame; }))
+            events->fail("must be in the order of their frames");
+    }
+    return script;
+}
+
+// Half a metre to every side, six faces of their own normals.
+std::shared_ptr<const scene::Model> unitBox() {
+    auto model = std::make_shared<scene::Model>();
+    model->name = "box";
+    scene::Material material;
+    material.metallic = 0.0f;
+    model->materials.push_back(material);
+    scene::Primitive box;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {1.0f, -1.0f}) {
+            glm::vec3 n(0.0f), t(0.0f);
+            n[axis] = side;
+            t[(axis + 1) % 3] = 1.0f;
+            const glm::vec3 b = glm::cross(n, t);
+            const uint32_t first = uint32_t(box.positions.size());
+            for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+                box.positions.push_back(0.5f * (n + t * corner.x + b * corner.y));
+                box.normals.push_back(n);
+                box.tangents.emplace_back(t, 1.0f);
+                box.uv0.push_back(0.5f * corner + 0.5f);
+            }
+            for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) box.indices.push_back(first + i);
+        }
+    box.boundsMin = glm::vec3(-0.5f);
+    box.boundsMax = glm::vec3(0.5f);
+    model->meshes.push_back({"box", {std::move(box)}, {}});
+    scene::Node node;
+    node.mesh = 0;
+    model->nodes.push_back(node);
+    model->roots = model->order = {0};
+    return model;
+}
+
+std::filesystem::path pathFile(const Script& script) {
+    const auto found = evaluate::findContent(script.path.string());
+    if (!found) throw Complaint(fmt::format("{}: its camera path {} is not in content/", script.name, script.path.string()));
+    return *found;
+}
+
+}  // namespace
+
+std::vector<Script> scripts() {
+    const auto manifest = evaluate::findContent("flythroughs.json");
+    if (!manifest) throw Complaint("flythroughs.json: not found in content/; run from the source tree, or name a content folder in OBSCURA_CONTENT");
+    const scene::JsonFile json(*manifest);
+    const scene::JsonAt list = json.root().at("flythroughs").expectArray();
+    std::vector<Script> all;
+    for (size_t i = 0; i < list.size(); ++i) all.push_back(scriptOf(list.at(i)));
+    return all;
+}
+
+Script findScript(const std::string& name) {
+    std::vector<std::string> names;
+    for (Script& script : scripts()) {
+        names.push_back(script.name);
+        if (script.name != name) continue;
+        evaluate::findScene(script.scene);
+        if (!script.camera) pathFile(script);
+        return script;
+    }
+    throw Complaint(fmt::format("--flythrough {}: no such flythrough; {}", name, app::choices(name, names)));
+}
+
+Stage::Stage(const Script& script) : m_script(script) {
+    m_world.add({.model = scene::loadGltf(evaluate::findScene(script.scene).file)});
+    if (m_world.triangleCount() == 0) throw Complaint(fmt::format("{}: nothing in {} can be drawn", script.name, script.scene));
+    if (!script.camera) m_path = scene::loadCameraPath(pathFile(script));
+    if (!script.events.empty()) m_box = unitBox();
+}
+
+const scene::World& Stage::worldAt(uint32_t frame) {
+    std::map<std::string, const Event*> standing;
+    for (const Event& event : m_script.events) {
+        if (event.frame > frame) break;
+        if (event.gone) standing.erase(event.box);
+        else standing[event.box] = &event;
+    }
+    for (auto box = m_boxes.begin(); box != m_boxes.end();) {
+        if (standing.count(box->first)) {
+            ++box;
+            continue;
+        }
+        m_world.remove(box->second);
+        box = m_boxes.erase(box);
+    }
+    for (const auto& [name, event] : standing) {
+        if (!m_boxes.count(name)) m_boxes[name] = m_world.add({.model = m_box, .animation = -1});
+        for (scene::Instance& instance : m_world.instances())
+            if (instance.id == m_boxes[name]) instance.placement = glm::scale(glm::translate(glm::mat4(1.0f), event->at), event->size);
+    }
+    return m_world;
+}
+
+scene::Camera Stage::cameraAt(uint32_t frame) const { return m_script.camera ? *m_script.camera : m_path.at(m_script.timeAt(frame)); }
+
+}  // namespace obscura::flythrough
