@@ -13,6 +13,7 @@
 #include "app/picture.h"
 #include "app/progress.h"
 #include "app/statistics.h"
+#include "scene/hash.h"
 #include "shot.h"
 #include "truth/cache.h"
 #include "truth/world_reference.h"
@@ -115,7 +116,7 @@ void Flight::draw() {
 }
 
 void Flight::trace() {
-    truth::ReferenceCache cache(m_settings.cache ? truth::ReferenceCache::defaultFolder() : std::filesystem::path());
+    truth::ReferenceCache cache(m_settings.cache ? scene::cacheFolder() : std::filesystem::path());
     const std::vector<truth::RayFalloff> falloffs{truth::rayFalloff(m_falloff.falloff)};
     truth::WorldOptions rays;
     rays.minRays = rays.maxRays = m_settings.rays;
@@ -136,7 +137,7 @@ void Flight::trace() {
 }
 
 std::string Flight::keyOf(const evaluate::Candidate& candidate, Filter filter) const {
-    truth::Hash hash;
+    scene::Hash hash;
     const Script& script = m_stage.script();
     hash.add(script.name).add(script.scene).add(m_falloff.text).add(m_settings.size.x).add(m_settings.size.y).add(m_settings.guard);
     hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(std::string(candidate.info().id)).add(std::string(name(filter)));
