@@ -1,0 +1,44 @@
+#include "ao/summed_area.h"
+
+#include <cassert>
+
+namespace obscura::ao {
+namespace {
+
+struct RowConstants {
+    shared::uvec2 size;
+    uint32_t layers, masked;
+    uint32_t masks[SummedArea::kMostLayers], values[SummedArea::kMostLayers];
+};
+struct ColumnConstants { uint32_t columns, rows; };
+
+}  // namespace
+
+Status SummedArea::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SummedArea& out, uint32_t parts) {
+    if (parts == 0) parts = device.caps().software ? 1 : 16;
+    const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/common/sum_rows.comp", &out.m_rows}, {"ao/common/sum_columns.comp", &out.m_columns}};
+    for (const auto& [name, program] : programs)
+        if (gpu::Program::compute(device, shaders, name, {{0, parts}}, *program) != gpu::Status::ok) return Status::shaderError;
+    return Status::ok;
+}
+
+void SummedArea::add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId table, shared::uvec2 size) {
+    const Layer all{0, 0};
+    add(graph, name, texels, texels, table, size, {&all, 1});
+}
+
+void SummedArea::add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId codes, graph::BufferId table,
+                     shared::uvec2 size, std::span<const Layer> layers) {
+    assert(!layers.empty() && layers.size() <= kMostLayers);
+    RowConstants rows{size, uint32_t(layers.size()), 0, {}, {}};
+    for (size_t i = 0; i < layers.size(); ++i) {
+        rows.masks[i] = layers[i].mask;
+        rows.values[i] = layers[i].value;
+        rows.masked |= layers[i].mask;
+    }
+    graph.pass(name + " rows", m_rows).read(texels).read(codes).write(table).constants(rows).dispatch(size.y, 1, rows.layers);
+    const ColumnConstants columns{(size.x + 1) * rows.layers, size.y};
+    graph.pass(name + " columns", m_columns).write(table).constants(columns).dispatch(columns.columns);
+}
+
+}  // namespace obscura::ao
