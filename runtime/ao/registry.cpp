@@ -13,6 +13,7 @@ MethodEntry noneEntry();
 MethodEntry hbaoEntry();
 MethodEntry horizonSplitEntry();
 MethodEntry multiResolutionEntry();
+MethodEntry statisticalEntry();
 
 namespace {
 
@@ -37,7 +38,7 @@ struct Composed {
 
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
-        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry()};
+        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

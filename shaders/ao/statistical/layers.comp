@@ -1,0 +1,62 @@
+// Which layer a texel belongs to, one more bit a level [Hendrickx, sec. 5, alg. 1]: set where it lies before the mean depth
+// of its own layer over its own window. Or, at level 0, the number of its uniform layer [sec. 4].
+// In: texels, codes so far, the tables of the layers so far (unused ones are bound to the root). Out: codes.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/statistical/fixed_point.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, std430) readonly buffer ExtentBlock { Extent extent; };
+layout(set = 0, binding = 2, std430) readonly buffer Texels { uvec4 texels[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Root { uvec4 root[]; };
+layout(set = 0, binding = 4, std430) readonly buffer First { uvec4 first[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Second { uvec4 second[]; };
+layout(set = 0, binding = 6, std430) buffer Codes { uint codes[]; };
+layout(push_constant) uniform Constants { Box boxBlock; uvec2 size; uint uniformLayers; };
+layout(constant_id = 0) const uint level = 1;
+
+// Sum of z and count over a window of table[LAYERS x entry + LAYER]; corners as indices of entries.
+#define WINDOW(table, layers, layer) (table[corner.w * layers + layer].zw - table[corner.y * layers + layer].zw \
+                                    - table[corner.z * layers + layer].zw + table[corner.x * layers + layer].zw)
+
+void main() {
+    View view = viewBlock;
+    Box box = boxBlock;
+    uvec2 t = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(t, size))) return;
+    uint at = t.y * size.x + t.x;
+    ivec2 texel = ivec2(texels[at].zw);
+    if (texel.y == 0) {
+        codes[at] = 0u;
+        return;
+    }
+    float units = unitsPerMetre(view, box, extent);
+    float d = -float(texel.x) / float(texel.y);  // in units
+    if (level == 0u) {
+        float near = nearestDepth(extent), far = uintBitsToFloat(extent.furthest);
+        codes[at] = uint(clamp((d / units - near) / max(far - near, 1e-6) * float(uniformLayers), 0.0, float(uniformLayers - 1u)));
+        return;
+    }
+
+    // Whole texels: a share of a texel at the window's edge cannot change what lies clearly before or behind.
+    float reach = halfWindow(view, box, d / units) / float(box.texelSide);
+    uvec2 low = uvec2(clamp(round(vec2(t) + 0.5 - reach), vec2(0.0), vec2(t)));
+    uvec2 high = uvec2(clamp(round(vec2(t) + 0.5 + reach), vec2(t) + 1.0, vec2(size)));
+    uint pitch = size.x + 1u;
+    uvec4 corner = uvec4(low.y * pitch + low.x, low.y * pitch + high.x, high.y * pitch + low.x, high.y * pitch + high.x);
+    uvec2 sum = WINDOW(root, 1u, 0u);
+    uint code = level > 1u ? codes[at] : 0u;
+    if (level == 2u) {
+        uvec2 near = WINDOW(first, 1u, 0u);
+        sum = (code & 1u) != 0u ? near : sum - near;
+    }
+    if (level == 3u) {
+        uvec2 near = WINDOW(first, 1u, 0u);
+        sum = (code & 1u) != 0u ? near : sum - near;
+        uint branch = (code & 1u) != 0u ? 0u : 1u;
+        uvec2 nearer = WINDOW(second, 2u, branch);
+        sum = (code & 2u) != 0u ? nearer : sum - nearer;
+    }
+    bool before = d < -float(int(sum.x)) / float(sum.y);  // its own texel is in the sum, so there is a mean
+    codes[at] = code | (before ? 1u << (level - 1u) : 0u);
+}

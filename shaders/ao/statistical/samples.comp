@@ -1,0 +1,48 @@
+// Volumetric obscurance of the same box by samples [Loos 2010], what the statistics stand for. Points: blocked or not at a
+// height of their own. Lines: the blocked part of a line along the normal. Positions fill the window evenly.
+// In: linear depth, packed normals. Out: visibility, R16F.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/statistical/fixed_point.h"
+#include "ao/statistical/window.glsl"
+#include "shared/octahedral.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
+layout(push_constant) uniform Constants { Box boxBlock; float slope, gain; uint samples, lines; };
+
+const vec2 kNext = vec2(0.7548776662, 0.5698402910);  // successive multiples fill the square evenly
+const float kTile[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+
+void main() {
+    View view = viewBlock;
+    Box box = boxBlock;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 texel = p + ivec2(view.guard);
+    float z = imageLoad(depth, texel).x;
+    if (isSky(view, z)) {
+        imageStore(visibility, p, vec4(1.0));
+        return;
+    }
+    vec2 pixel = vec2(texel) + 0.5;
+    vec3 here = eyePosition(view, pixel, z);
+    vec3 n = unpackNormal(imageLoad(normals, texel).x);
+    n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
+    float reach = halfWindow(view, box, z), height = boxHeight(view, box, z), blocked = 0.0, count = 0.0;
+    // Few lines differ from pixel to pixel over a 4x4 tile, for a blur to gather; many points need no such thing.
+    float shift = lines != 0u ? kTile[(texel.y & 3) * 4 + (texel.x & 3)] * float(samples) : 0.0;
+    for (uint i = 0u; i < samples; ++i) {
+        vec2 at = pixel + (2.0 * fract(0.5 + (float(i) + shift) * kNext) - 1.0) * reach;
+        ivec2 q = clamp(ivec2(at), ivec2(0), ivec2(view.size) - 1);
+        float zq = imageLoad(depth, q).x;
+        float part = psi(vec4(dot(eyePosition(view, vec2(q) + 0.5, zq) - here, n) / height), slope).x;
+        float point = part > (float(i) + 0.5) / float(samples) ? 1.0 : 0.0;
+        bool counts = !isSky(view, zq) && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
+        blocked += counts ? (lines != 0u ? part : point) : 0.0;
+        count += counts ? 1.0 : 0.0;
+    }
+    imageStore(visibility, p, vec4(clamp(1.0 - gain * blocked / max(count, 1.0), 0.0, 1.0)));
+}

@@ -1,0 +1,118 @@
+// A wall behind a floor, whose numbers are known from an independent implementation, and what parameters must do there.
+#include "statistical/bench.h"
+
+namespace obscura::test {
+namespace {
+
+// Floor 1.5 m below the camera, wall 8 m ahead, 320 x 180 visible.
+Room hall() {
+    Room room;
+    room.width = 384;
+    room.height = 216;
+    room.floor = -1.5f;
+    room.wall = -8.0f;
+    room.guard = 18;
+    room.build();
+    // The guard band is 32 px to the left and right; the room's own is equal on all sides.
+    const float f = 1.0f / std::tan(0.5236f);
+    room.projection[5] = -f * 180.0f / 216.0f;
+    room.projection[0] = f * 180.0f / 384.0f;
+    return room;
+}
+ao::Frame frameOf(const Room& room) {
+    ao::Frame frame = room.frame();
+    frame.guard = {32, 18};
+    return frame;
+}
+
+class Hall : public StatisticalTest {
+protected:
+    Picture run(const ao::Values& values) { return StatisticalTest::run(m_room, frameOf(m_room), values, "quadratic:1"); }
+    static double row(const Picture& picture, uint32_t y) {  // mean of the middle
+        double sum = 0.0;
+        for (uint32_t x = 150; x < 170; ++x) sum += picture[size_t(y) * 320 + x];
+        return sum / 20.0;
+    }
+    const Room m_room = hall();
+};
+
+TEST_F(Hall, isAsKnown) {
+    const Picture picture = run(values({{"gain", 1}}, "quality"));
+    for (const auto& [y, expected] : {std::pair{119u, 0.1216}, {120u, 0.1097}, {121u, 0.0987}, {123u, 0.0796}, {117u, 0.1242}, {114u, 0.1531}, {109u, 0.0673}})
+        EXPECT_NEAR(row(picture, y), expected, 5e-4) << "row " << y;
+}
+
+TEST_F(Hall, isAsKnownWithoutQuadrantsInASmallBox) {
+    const Changes small = {{"gain", 1}, {"radius", 0.5f}, {"height", 0.5f}, {"slope", 1}, {"quadrants", 0}};
+    const Picture four = run(values(small, "quality"));
+    for (const auto& [y, expected] : {std::pair{119u, 0.2390}, {120u, 0.2001}, {121u, 0.1653}, {123u, 0.1096}, {117u, 0.1145}}) EXPECT_NEAR(row(four, y), expected, 1e-3) << "row " << y;
+    Changes one = small;
+    one.push_back({"layers", kOne});
+    EXPECT_NEAR(row(run(values(one, "quality")), 117), 0.7665, 2e-3);  // the floor in front is averaged in: layers keep it out
+}
+
+TEST_F(Hall, quadrantsAndSamplesAreTheirOwnPictures) {
+    const Picture whole = run(values({}, "paper")), quarters = run(values({}, "quality")), points = run(values({{"estimator", kPoints}}, "quality"));
+    EXPECT_NE(whole, quarters);
+    double difference = 0.0;
+    for (size_t i = 0; i < points.size(); ++i) difference += std::abs(points[i] - quarters[i]);
+    EXPECT_LT(difference / double(points.size()), 0.02);
+}
+
+TEST_F(Hall, linesConvergeToPoints) {
+    const Picture many = run(values({{"estimator", kPoints}, {"samples", 1024}})), lines = run(values({{"estimator", kLines}, {"samples", 64}}));
+    double difference = 0.0;
+    for (size_t i = 0; i < many.size(); ++i) difference += std::abs(many[i] - lines[i]);
+    EXPECT_LT(difference / double(many.size()), 0.01);
+    EXPECT_GT(mean(lines), 0.015);
+}
+
+TEST_F(Hall, adaptiveLayersComeNearUniformOnes) {
+    const Picture uniform = run(values({{"layers", kUniform64}}, "quality"));
+    double before = 1.0;
+    for (const Layering layering : {kOne, kTwo, kFour, kEight}) {
+        const Picture adaptive = run(values({{"layers", float(layering)}}, "quality"));
+        double difference = 0.0;
+        for (size_t i = 0; i < uniform.size(); ++i) difference += std::abs(adaptive[i] - uniform[i]);
+        EXPECT_LT(difference, before * double(uniform.size())) << layering;
+        before = difference / double(uniform.size()) + 1e-4;
+    }
+    EXPECT_LT(before, 0.01);
+}
+
+TEST_F(StatisticalTest, planesAreOpen) {
+    for (const auto& normal : {std::array{0.0f, 1.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{-0.7f, 0.1f, 0.7f}}) {
+        const Room room = plane(normal, 6.0f);  // further away, 0.004 degrees of the packed normal show
+        for (const char* preset : {"default", "paper", "quality"}) {
+            EXPECT_LT(highest(run(room, values({}, preset))), 5e-4f) << preset;  // 1, or what a half float has next to it
+        }
+    }
+}
+
+TEST_F(StatisticalTest, seedsDoNotMatter) {
+    Room room;
+    room.wall = -4.0f;
+    room.build();
+    for (const ao::Preset& preset : ao::findMethod("statistical")->presets) {
+        ao::Frame one = room.frame(), other = room.frame();
+        one.index = 1;
+        other.index = 12345;
+        EXPECT_EQ(run(room, one, values({}, preset.id), "quadratic:1"), run(room, other, values({}, preset.id), "quadratic:1")) << preset.id;
+    }
+}
+
+TEST_F(StatisticalTest, theBoxFollowsTheFalloff) {
+    Room room;
+    room.wall = -4.0f;
+    room.build();
+    EXPECT_EQ(run(room, values({{"radius", 1.5f}, {"height", 3.0f}}), "quadratic:1"), run(room, values({}), "quadratic:2"));
+    double before = 0.0;
+    for (const char* falloff : {"linear:0.5", "linear:1", "wendland:2", "linear:2"}) {
+        const double now = mean(run(room, values({}), falloff));
+        EXPECT_GT(now, before) << falloff;
+        before = now;
+    }
+}
+
+}  // namespace
+}  // namespace obscura::test
