@@ -14,6 +14,8 @@ MethodEntry hbaoEntry();
 MethodEntry horizonSplitEntry();
 MethodEntry multiResolutionEntry();
 MethodEntry statisticalEntry();
+MethodEntry farFieldEntry();
+MethodEntry mipmapEntry();
 
 namespace {
 
@@ -38,7 +40,7 @@ struct Composed {
 
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
-        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry()};
+        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

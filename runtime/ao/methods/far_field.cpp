@@ -1,0 +1,168 @@
+// Screen-space far-field ambient obscurance [Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013]. The depth buffer is scanned
+// along parallel lines in K directions; every B0 pixels a line leaves the two heights that make up its highest point as receivers see it,
+// and longer intervals leave the maxima of shorter ones. A pixel then walks each of its K sectors outwards over some seven such points,
+// averaged over the sector's width, raises its horizon, and looks up what each rise blocks in a table of the falloff:
+//     A = 1/pi sum over sectors of w_k |n_k| sum over visible points of integral of rho cos(theta - d) sin(theta)      [eq. 2, 3]
+//
+// Where the paper is silent or mistaken:
+// - Angles are from the zenith, so a point is visible when its angle is smaller [alg. 2 compares the other way].
+// - s = -1 with x = (m0 - m1) / s needs m1 = max(z - s x) [alg. 1 has + s x].
+// - Intervals lie on a grid of the whole direction, not of each line, or there is nothing to average [alg. 1 counts down each line].
+// - The four-dimensional table is exactly two-dimensional (shaders/ao/far_field/estimator.glsl).
+// - Samples start from where the receiver, raised by a pixel's footprint, is seen.
+// - Lines that are sky or outside are left out of means, by a third prefix sum that counts lines.
+// The default goes further: points hang on lines between slab and connection, are seen from above and below (s = 1), and are averaged as
+// 1/depth by a lateral pyramid, which needs a sixth of the memory of prefix sums and no pass over every cell.
+//
+// Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: table (when the falloff is new),
+// scan, prefix sums or pyramid, obscurance; interleaved also near field, box average, gather, blur.
+#include <iterator>
+
+#include "far_field_parts.h"
+
+namespace obscura::ao {
+namespace {
+
+const char* const kAveragings[] = {"none", "prefix sums", "pyramid"};
+enum Estimator : uint32_t { kSlab, kConnected, kBlended };
+const char* const kEstimators[] = {"slab", "connected", "blended"};
+const char* const kParts[] = {"both", "near", "far"};
+const char* const kInterleaves[] = {"off", "3x3"};
+const char* const kSparsities[] = {"every", "every 2nd", "every 4th"};
+
+const Parameter kParameters[] = {
+    {"directions", "", 4, 32, 8, true, {}, "Directions in which the depth buffer is scanned, K; even numbers share walks between opposite ones."},
+    {"segments", "", 1, 8, 4, true, {}, "Parts of each sector, evaluated one by one; the cost per pixel grows with directions x segments."},
+    {"interval", "px", 3, 20, 5, true, {}, "Shortest interval that keeps one point, B0; longer ones cost less and leave more to the near field."},
+    {"lines", "", 0, 2, 0, true, {kSparsities, 3}, "Which of the lines, a pixel apart, are scanned."},
+    {"slope", "", -2, 2, 1, false, {}, "Slope of the second angle at which intervals are seen, s; the paper's is -1, from above. 0 counts as 1."},
+    {"estimator", "", 0, 2, 2, true, {kEstimators, 3}, "What stands below a point: a slab away from the camera as in the paper, the connection to the point before it, or between both."},
+    {"averaging", "", 0, 2, 2, true, {kAveragings, 3}, "How points are averaged over a sector's width: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth."},
+    {"near", "", 0, 16, 3, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
+    {"parts", "", 0, 2, 0, true, {kParts, 3}, "What is shown: both fields, the near one alone, or the far one alone above the near one's horizon."},
+    {"interleave", "", 0, 1, 0, true, {kInterleaves, 2}, "3x3: a pixel does one sector in nine and gathers those of its neighbours; directions 9, 18 or 27."},
+    {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
+};
+const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"interval", 5}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", 1}};
+const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"interleave", 1}};
+const Preset kPresets[] = {
+    {"default", "8 directions x 4 segments, blended estimator, lateral pyramid.", {}},
+    {"paper_8x2", "The paper's smaller setting.", {kPaper8, std::size(kPaper8)}},
+    {"paper_16x2", "The paper's larger setting.", {kPaper16, std::size(kPaper16)}},
+    {"paper_saao", "The paper's interleaved setting: 18 directions x 2 segments, blurred.", {kPaperSaao, std::size(kPaperSaao)}},
+    {"fast", "Interleaved over 3x3 pixels: a ninth of the far field a pixel.", {kFast, std::size(kFast)}},
+};
+const MethodInfo kInfo{"far_field",
+                       "Far-field ambient obscurance",
+                       "Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013",
+                       "Occluders from the whole depth buffer, at a cost that no radius or falloff changes.",
+                       kDepth | kNormals,
+                       {kParameters, std::size(kParameters)},
+                       {kPresets, std::size(kPresets)}};
+
+class FarField final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<FarField>();
+        if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
+        for (uint32_t i = 0; i < 3; ++i) {
+            if (gpu::Program::compute(device, shaders, "ao/far_field/scan.comp", {{0, i}}, result->m_scan[i]) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, "ao/far_field/obscurance.comp", {{0, i}}, result->m_obscurance[i]) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, "ao/far_field/interleaved.comp", {{0, i}}, result->m_interleaved[i]) != gpu::Status::ok) return nullptr;
+        }
+        const struct { const char* name; gpu::Program* program; } programs[] = {
+            {"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid}, {"box_average", &result->m_boxAverage}, {"gather", &result->m_gather}, {"blur", &result->m_blur}};
+        for (const auto& [name, program] : programs)
+            if (gpu::Program::compute(device, shaders, std::string("ao/far_field/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;
+        return result;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        const shared::View& view = inputs.view;
+        const auto averaging = Averaging(values.count("averaging"));
+        const uint32_t directions = values.count("directions"), lineStep = 1u << values.count("lines");
+        const FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging);
+        const float slope = values["slope"];
+        const float connections[] = {0.0f, 1.0f, 0.75f};
+        shared::FarFieldConstants constants{};
+        constants.directions = directions;
+        constants.segments = values.count("segments");
+        constants.levels = grid.levels;
+        constants.interval = float(grid.interval);
+        constants.lineStep = float(lineStep);
+        constants.slope = std::abs(slope) < 0.01f ? 1.0f : slope;
+        constants.connection = connections[values.count("estimator")];
+        constants.unit = inputs.falloffDesc.length;
+        constants.taps = values.count("near");
+        constants.parts = values.count("parts") ? values.count("parts") : shared::kNearPart | shared::kFarPart;
+        constants.paired = directions % 2 == 0;
+
+        const graph::BufferId grids = graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
+        const graph::BufferId cells = graph.buffer("far_field.cells", grid.bytes);
+        const uint32_t run = averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1);
+        graph.pass("far_field.scan", m_scan[uint32_t(averaging)]).read(inputs.viewBlock).read(inputs.depth).read(grids).write(cells)
+            .constants(constants).dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
+        if (averaging == Averaging::prefixSums)
+            graph.pass("far_field.prefix sums", m_prefix).read(grids).write(cells).constants(constants).dispatch(grid.intervals, grid.levels, directions);
+        for (uint32_t from = 0; averaging == Averaging::pyramid && from + 1 < grid.levels; from += 3) {
+            const struct { shared::FarFieldConstants constants; uint32_t from; } levels{constants, from};
+            const uint32_t block = 8u << from;
+            graph.pass("far_field.pyramid", m_pyramid).read(inputs.viewBlock).read(grids).write(cells).constants(levels)
+                .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
+        }
+        const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
+        return values.count("interleave") ? interleaved(graph, inputs, scanned, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
+    }
+
+private:
+    struct Scanned {
+        graph::BufferId grids, cells;
+        graph::ImageId table;
+        Averaging averaging;
+        shared::FarFieldConstants constants;
+    };
+
+    graph::ImageId obscurance(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const char* name) {
+        const auto& visible = inputs.view.visible;
+        const graph::ImageId result = graph.image(name, {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
+        graph.pass(name, m_obscurance[uint32_t(scanned.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(scanned.grids)
+            .read(scanned.cells).read(scanned.table).write(result).constants(scanned.constants).dispatch(visible.x, visible.y);
+        return result;
+    }
+
+    // [Timonen 2013, sec. 10]: the whole near field of every pixel, the far field shared out over 3x3 pixels.
+    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, float threshold) {
+        const auto& visible = inputs.view.visible;
+        Scanned near = scanned, far = scanned;
+        near.constants.segments = 1;
+        near.constants.parts &= shared::kNearPart;
+        far.constants.parts &= shared::kFarPart;
+        const graph::ImageId nearField = obscurance(graph, inputs, near, "far_field.near field");
+        const graph::ImageId surfaces = graph.image("far_field.surfaces", {VK_FORMAT_R32G32_UINT, visible.x, visible.y});
+        graph.pass("far_field.box average", m_boxAverage).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(surfaces)
+            .dispatch(visible.x, visible.y);
+        const graph::ImageId parts = graph.image("far_field.parts", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
+        graph.pass("far_field.obscurance", m_interleaved[uint32_t(far.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(surfaces).read(far.grids)
+            .read(far.cells).read(far.table).write(parts).constants(far.constants).dispatch(visible.x, visible.y);
+        const graph::ImageId gathered = graph.image("far_field.gathered", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
+        graph.pass("far_field.gather", m_gather).read(inputs.viewBlock).read(surfaces).read(nearField).read(parts).write(gathered).dispatch(visible.x, visible.y);
+        if (threshold <= 0.0f) return gathered;
+        const graph::ImageId blurred = graph.image("far_field.blurred", graph.desc(gathered));
+        graph.pass("far_field.blur", m_blur).read(gathered).write(blurred).constants(threshold).dispatch(visible.x, visible.y);
+        return blurred;
+    }
+
+    FalloffTable m_table;
+    gpu::Program m_scan[3];  // by averaging
+    gpu::Program m_obscurance[3];
+    gpu::Program m_interleaved[3];
+    gpu::Program m_prefix, m_pyramid, m_boxAverage, m_gather, m_blur;
+};
+
+}  // namespace
+
+MethodEntry farFieldEntry() { return {&kInfo, &FarField::create}; }
+
+}  // namespace obscura::ao

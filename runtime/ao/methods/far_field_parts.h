@@ -1,0 +1,38 @@
+// What far_field and mipmap share: the falloff's table, and the grids that scans fill.
+#pragma once
+
+#include <vector>
+
+#include "ao/far_field/layout.h"
+#include "ao/method.h"
+
+namespace obscura::ao {
+
+// The falloff integrated along lines [Timonen 2013, eq. 3, factored into two dimensions]: 128 KB, made by a pass of its own whenever the
+// falloff is another than last time, so its kind costs nothing per frame.
+class FalloffTable {
+public:
+    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffTable& out);
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const char* passName);
+
+private:
+    gpu::Program m_program;
+    gpu::Image m_table;
+    Falloff m_falloff;
+    bool m_made = false;
+};
+
+enum class Averaging : uint32_t { none, prefixSums, pyramid };
+
+// The grids of K directions over a picture, all levels, one after the other in one buffer.
+struct FarFieldGrid {
+    std::vector<shared::Direction> directions;
+    uint32_t interval = 0;     // B0, px: widened until the buffer fits kLargestBuffer
+    uint32_t levels = 1;
+    uint64_t bytes = 0;        // of all cells
+    uint32_t lines = 0, intervals = 0;  // most of any direction
+};
+inline constexpr uint64_t kLargestBuffer = 1u << 27;  // the least maxStorageBufferRange that Vulkan promises
+FarFieldGrid farFieldGrid(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging);
+
+}  // namespace obscura::ao

@@ -1,0 +1,72 @@
+// The reference method of the far-field paper [Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013, sec. 5], so that its
+// comparison runs here: along K directions the depth pyramid is sampled at distances that grow by a factor, each time from the level
+// whose texels are as wide as the sector, trilinearly, and once more at the picture's very edge. Estimator and table are far_field's,
+// with the paper's slabs; what differs is only where the points come from.
+//
+// Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: pyramid (one a level), obscurance.
+#include <algorithm>
+#include <iterator>
+
+#include "far_field_parts.h"
+
+namespace obscura::ao {
+namespace {
+
+const Parameter kParameters[] = {
+    {"directions", "", 4, 64, 16, true, {}, "Directions on the screen, K; the cost grows with them."},
+    {"factor", "", 1.1f, 3, 1.5f, false, {}, "How much each step is longer than the one before it."},
+};
+const Setting kDense[] = {{"directions", 64}, {"factor", 1.2f}};
+const Preset kPresets[] = {
+    {"default", "The paper's: 16 directions, steps growing by half.", {}},
+    {"dense", "64 directions, steps growing by a fifth: how slowly it converges.", {kDense, std::size(kDense)}},
+};
+const MethodInfo kInfo{"mipmap",
+                       "Mipmapped ambient obscurance",
+                       "Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013, section 5",
+                       "Far samples from a depth pyramid: what far_field is compared with.",
+                       kDepth | kNormals,
+                       {kParameters, std::size(kParameters)},
+                       {kPresets, std::size(kPresets)}};
+
+class Mipmap final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<Mipmap>();
+        if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
+        const struct { const char* name; gpu::Program* program; } programs[] = {
+            {"ao/mipmap/base.comp", &result->m_base}, {"ao/mipmap/reduce.comp", &result->m_reduce}, {"ao/mipmap/obscurance.comp", &result->m_obscurance}};
+        for (const auto& [name, program] : programs)
+            if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+        return result;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        const shared::View& view = inputs.view;
+        uint32_t mips = 1;
+        while (std::max(view.size.x, view.size.y) >> mips) ++mips;
+        const graph::ImageId pyramid = graph.image("mipmap.pyramid", {VK_FORMAT_R32_SFLOAT, view.size.x, view.size.y, 1, mips});
+        graph.pass("mipmap.base", m_base).read(inputs.depth).writeMip(pyramid, 0).dispatch(view.size.x, view.size.y);
+        const uint32_t nearest = 0;
+        for (uint32_t mip = 1; mip < mips; ++mip)
+            graph.pass("mipmap.reduce", m_reduce).readMip(pyramid, mip - 1).writeMip(pyramid, mip).constants(nearest)
+                .dispatch(std::max(view.size.x >> mip, 1u), std::max(view.size.y >> mip, 1u));
+
+        const struct { uint32_t directions; float factor, unit; } constants{values.count("directions"), values["factor"], inputs.falloffDesc.length};
+        const graph::ImageId table = m_table.add(graph, inputs, "mipmap.table");
+        const graph::ImageId visibility = graph.image("mipmap.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
+        graph.pass("mipmap.obscurance", m_obscurance).read(inputs.viewBlock).read(inputs.normals).read(pyramid, graph::Sampling::linear).read(table)
+            .write(visibility).constants(constants).dispatch(view.visible.x, view.visible.y);
+        return visibility;
+    }
+
+private:
+    FalloffTable m_table;
+    gpu::Program m_base, m_reduce, m_obscurance;
+};
+
+}  // namespace
+
+MethodEntry mipmapEntry() { return {&kInfo, &Mipmap::create}; }
+
+}  // namespace obscura::ao

@@ -1,0 +1,56 @@
+// The obscurance estimator [Timonen 2013, sec. 4] in a plane through the receiver and the zenith Z, the direction to the camera: points come in
+// from near to far, each that raises the horizon blocks the arc it gains. Angles are from the zenith, so a higher horizon is a smaller one.
+// What blocks an arc is a line from the point: the slab away from the camera as in the paper, the connection to the point before it, or
+// something between. With phi = c - theta (c the line's direction, b its distance) the paper's four-dimensional table is exactly
+//     integral of rho cos(theta - d) sin(theta) = 1/2 (sin(2c - d) dA1 - cos(2c - d) dA2 + sin(d) dA0)
+// with differences of A0, A1, A2 (table.comp), two-dimensional. Include after declaring `table`, rgba32ui.
+#ifndef OBSCURA_FAR_FIELD_ESTIMATOR_GLSL
+#define OBSCURA_FAR_FIELD_ESTIMATOR_GLSL
+#include "ao/far_field/table.glsl"
+
+vec3 columnOf(uvec4 texel, float f) {
+    vec2 a = unpackHalf2x16(texel.x), b = unpackHalf2x16(texel.y), c = unpackHalf2x16(texel.z);
+    return vec3(mix(a.x, a.y, f), mix(b.x, b.y, f), mix(c.x, c.y, f));
+}
+// A(phi2, b) - A(phi1, b). The nearest row: they are dense enough, and both angles take the same.
+vec3 tableDifference(float phi1, float phi2, float v) {
+    float column1 = phi1 * (float(kTableColumns - 1u) / kPi), column2 = phi2 * (float(kTableColumns - 1u) / kPi);
+    int y = int(v * float(kTableRows - 1u) + 0.5), x1 = min(int(column1), int(kTableColumns) - 2), x2 = min(int(column2), int(kTableColumns) - 2);
+    return columnOf(imageLoad(table, ivec2(x2, y)), column2 - float(x2)) - columnOf(imageLoad(table, ivec2(x1, y)), column1 - float(x1));
+}
+
+struct Horizon {
+    float theta;    // zenith angle
+    vec2 point;     // the last visible point, from the receiver; (u, z)
+    float follows;  // connection once there is such a point
+    float blocked;  // what was gained, times |n_k|
+};
+Horizon horizonAt(float theta) { return Horizon(theta, vec2(0.0), 0.0, 0.0); }
+
+// `point` from the receiver, `slab` away from the camera (any length), both (u, z): along the sector and along the zenith. n: the normal
+// projected on this plane, not normalised. `exists` false: no point.
+void addPoint(inout Horizon h, vec2 point, vec2 slab, bool exists, vec2 n, float connection, float unit) {
+    exists = exists && point.x > 0.0;  // what lies beyond the zenith belongs to other sectors
+    point.x = max(point.x, 1e-9);
+    float length2 = dot(point, point), inverse = inversesqrt(length2);
+    vec2 to = point * inverse;
+    float theta = acosOf(to.y);
+    bool visible = exists && theta < h.theta;
+    vec2 before = h.point - point;
+    slab *= inversesqrt(max(dot(slab, slab), 1e-30));
+    before *= inversesqrt(max(dot(before, before), 1e-30));
+    vec2 line = mix(slab, before, h.follows);
+    line *= inversesqrt(max(dot(line, line), 1e-30));
+    float sine = line.x * to.y - line.y * to.x;  // of phi2 = c - theta
+    float phi2 = acosOf(dot(line, to)), phi1 = max(phi2 - (h.theta - theta), 0.0);
+    float b = max(sine, 0.0) * length2 * inverse;
+    vec3 a = tableDifference(min(phi1, phi2), phi2, b / (b + unit));
+    vec2 twice = vec2(2.0 * line.x * line.y, line.y * line.y - line.x * line.x);  // sin 2c, cos 2c
+    float gained = 0.5 * ((twice.x * n.y - twice.y * n.x) * a.y - (twice.y * n.y + twice.x * n.x) * a.z + n.x * a.x);
+    h.blocked += visible ? gained : 0.0;
+    h.theta = visible ? theta : h.theta;
+    h.point = visible ? point : h.point;
+    h.follows = visible ? connection : h.follows;
+}
+
+#endif

@@ -1,0 +1,71 @@
+// A pixel as receiver, and the plane of one segment of a sector through it. A point of depth D seen r pixels along the direction from
+// the receiver lies in that plane at
+//     u = scale(D) r du,   z = D (z0 + r dz)
+// from the camera, whichever the scan, the near field or a mipmap found the depth in.
+#ifndef OBSCURA_FAR_FIELD_RECEIVER_GLSL
+#define OBSCURA_FAR_FIELD_RECEIVER_GLSL
+#include "ao/far_field/table.glsl"
+#include "shared/view.h"
+
+struct Receiver {
+    vec3 p;        // a pixel's footprint above the surface, so that slanted planes do not shadow themselves
+    vec2 pixel;    // where p is seen; samples start from there
+    vec3 n, zenith;
+    float nz;      // n.zenith
+    float z0;
+    vec2 scale;    // scale(D) = D * scale.x + scale.y
+    vec2 unproject, size;
+};
+Receiver receiverAt(View view, ivec2 texel, float depth, vec3 n) {
+    vec2 scale = view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0);
+    vec3 p = eyePosition(view, vec2(texel) + 0.5, depth);
+    n = dot(n, towardsEye(view, p)) < 0.0 ? -n : n;
+    p += n * ((depth * scale.x + scale.y) / view.pixelsPerMetre);
+    vec3 zenith = towardsEye(view, p);
+    float z0 = view.orthographic > 0.5 ? -1.0 : dot(p, zenith) / -p.z;
+    return Receiver(p, pixelOf(view, p), n, zenith, max(dot(n, zenith), 0.0), z0, scale, view.unproject.xy, vec2(view.size));
+}
+
+struct Segment {
+    vec2 along;        // on the screen, as long as a pixel along the sector's direction
+    float du, z0, dz;
+    float origin;      // the receiver's z in the plane; its u is 0
+    vec2 n;            // projected normal (u, z), not normalised
+    float start;       // zenith angle at which the tangent plane begins
+    float weight;      // angle around the zenith [eq. 2: w_k]
+    float exit;        // pixels along the direction to the picture's edge
+    vec2 scale;
+};
+float atanOf(float y, float x) {  // y >= 0; error below 1e-5
+    float t = min(y, abs(x)) / max(max(y, abs(x)), 1e-20), t2 = t * t;
+    float r = t * (0.9998660 + t2 * (-0.3302995 + t2 * (0.1801410 + t2 * (-0.0851330 + t2 * 0.0208351))));
+    r = y > abs(x) ? 0.5 * kPi - r : r;
+    return x < 0.0 ? kPi - r : r;
+}
+// `along`, unit, times `stretch` is a step of one pixel along the sector's direction. `width`: cosine and sine of half the segment's width.
+Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
+    Segment s;
+    vec2 g = along * r.unproject;
+    float g2 = dot(g, g), perStep = inversesqrt(g2);
+    vec2 e = g * perStep;
+    float ez = dot(e, r.zenith.xy), sine2 = 1.0 - ez * ez, inverse = inversesqrt(sine2);
+    s.along = along * stretch;
+    s.origin = dot(r.p, r.zenith);
+    s.z0 = r.z0;
+    s.du = g2 * perStep * sine2 * inverse * stretch;
+    s.dz = g2 * perStep * ez * stretch * r.scale.x;
+    s.n = vec2((dot(r.n.xy, e) - ez * r.nz) * inverse, r.nz);
+    s.start = acosOf(-s.n.x * inversesqrt(max(dot(s.n, s.n), 1e-20)));
+    // Azimuths differ by the angle between the projections of the segment's two sides onto the plane across the zenith.
+    s.weight = atanOf(2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
+    vec2 room = mix(r.pixel, r.size - r.pixel, greaterThan(along, vec2(0.0))) / max(abs(along), vec2(1e-6));
+    s.exit = min(room.x, room.y) / stretch;
+    s.scale = r.scale;
+    return s;
+}
+// From the camera. The slab's direction is this with u scaled by s.scale.x.
+vec2 pointAt(Segment s, float depth, float r) {
+    return vec2((depth * s.scale.x + s.scale.y) * r * s.du, depth * (s.z0 + r * s.dz));
+}
+
+#endif

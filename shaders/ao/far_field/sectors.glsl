@@ -1,0 +1,106 @@
+// One segment of a sector: the near field, texel by texel, then intervals of growing length to the picture's edge. Include after declaring
+// `table`, `depth`, `cells` and `directionsOf`.
+#ifndef OBSCURA_FAR_FIELD_SECTORS_GLSL
+#define OBSCURA_FAR_FIELD_SECTORS_GLSL
+#include "ao/far_field/estimator.glsl"
+#include "ao/far_field/grid.glsl"
+#include "ao/far_field/receiver.glsl"
+
+// From a sector's middle to its first segment, from segment to segment, half a segment: cosine and sine.
+struct Turn {
+    vec2 first, next, side;
+    float slope;  // of a sector's sides, lines per pixel of distance
+};
+Turn turnOf(FarFieldConstants c) {
+    float sector = kPi / float(c.directions), segment = sector / float(c.segments);
+    return Turn(vec2(cos(segment - sector), sin(segment - sector)), vec2(cos(2.0 * segment), sin(2.0 * segment)), vec2(cos(segment), sin(segment)), tan(sector) / c.lineStep);
+}
+
+// Where a receiver stands in a direction's grid.
+struct Place {
+    Direction d;
+    float along;  // pixels from the grid's first interval
+    float line;   // lines from its first
+    uint first;   // interval: at least B0 pixels away [alg. 2]
+    Axis axis;
+};
+Place placeOf(Direction d, Receiver r, FarFieldConstants c) {
+    vec2 at = r.pixel - 0.5 * r.size;
+    float along = dot(at, d.along) + d.origin.x, line = (dot(at, vec2(-d.along.y, d.along.x)) + d.origin.y) / c.lineStep;
+    return Place(d, along, line, uint(ceil(along / c.interval)) + 1u, axisOf(viewBlock, d.along));
+}
+
+// `taps` samples over the first `reach` pixels, denser near the receiver.
+void nearField(inout Horizon h, Segment s, Receiver r, FarFieldConstants c, float reach, float skyDepth) {
+    ivec2 last = ivec2(r.size) - 1;
+    float part = 1.0 / float(c.taps);
+    for (uint i = 0u; i < c.taps; ++i) {
+        float t = (float(i) + 0.6) * part;
+        t = max(reach * t * sqrt(t), 0.7);
+        float z = imageLoad(depth, clamp(ivec2(r.pixel + t * s.along), ivec2(0), last)).x;
+        vec2 point = pointAt(s, z, t);
+        addPoint(h, point - vec2(0.0, s.origin), vec2(point.x * s.scale.x, point.y), t < s.exit && z < skyDepth, s.n, c.connection, c.unit);
+    }
+}
+
+// (unit / depth, pixels along the direction from the grid's start) of interval j of level n between lines `from` and `to`.
+vec2 cellAt(Place at, FarFieldConstants c, uint n, uint j, float middle, float from, float to) {
+    if (kAveraging == kPyramid) {
+        uint lines = at.d.lines >> n, row = levelBase(at.d, n, kPyramid) + j * lines;
+        float line = clamp(0.5 * (from + to) / float(1u << n) - 0.5, 0.0, float(lines - 1u));
+        uint l = min(uint(line), lines - 2u);
+        vec2 point = mix(unpackHalf2x16(cells[row + l]), unpackHalf2x16(cells[row + l + 1u]), line - float(l));
+        return vec2(point.x, point.y + middle);
+    }
+    uint intervals = at.d.intervals >> n, column = levelBase(at.d, n, kAveraging) + j;
+    vec2 heights;
+    if (kAveraging == kSingle) {
+        uint a = (column + uint(clamp(0.5 * (from + to), 0.0, float(at.d.lines - 1u))) * intervals) * 2u;
+        heights = uintBitsToFloat(uvec2(cells[a], cells[a + 1u]));
+    } else {
+        float last = float(at.d.lines - 1u);
+        uint l0 = uint(clamp(floor(from), 0.0, last)), l1 = uint(clamp(max(floor(to), floor(from) + 1.0) - 1.0, 0.0, last));
+        uint a = (column + l1 * intervals) * 3u, b = (column + (max(l0, 1u) - 1u) * intervals) * 3u;
+        vec3 sum = uintBitsToFloat(uvec3(cells[a], cells[a + 1u], cells[a + 2u]));
+        sum -= l0 > 0u ? uintBitsToFloat(uvec3(cells[b], cells[b + 1u], cells[b + 2u])) : vec3(0.0);
+        heights = sum.z > 0.5 ? sum.xy / sum.z : vec2(kNothing);
+    }
+    vec2 point = pointOf(at.axis, c, heights, 0.0);
+    return vec2(point.x, point.y + at.d.origin.x);
+}
+
+// `low` and `high`: the segment's sides, lines per pixel of distance.
+void farField(inout Horizon h, Segment s, Place at, FarFieldConstants c, float low, float high) {
+    uint end = uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals)));
+    uint j = at.first;
+    while (j < end) {
+        float gap = float(j) - at.along / c.interval;  // in intervals; the longest that is aligned and not longer than its distance
+        uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
+        float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, r = middle - at.along;
+        vec2 cell = cellAt(at, c, n, j >> n, middle, at.line + low * r, at.line + high * r);
+        float depth = c.unit / max(cell.x, 1e-9);
+        vec2 point = pointAt(s, depth, cell.y - at.along);
+        addPoint(h, point - vec2(0.0, s.origin), vec2(point.x * s.scale.x, point.y), cell.x > 0.0, s.n, c.connection, c.unit);
+        j += 1u << n;
+    }
+}
+
+// Obscurance of direction k, not yet over pi, and the sector's width around the zenith.
+vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth) {
+    Place at = placeOf(directionsOf[k], r, c);
+    vec2 sum = vec2(0.0), along = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * at.d.along;
+    float low = -turn.slope, step = 2.0 * turn.slope / float(c.segments);
+    for (uint i = 0u; i < c.segments; ++i) {
+        Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
+        Horizon h = horizonAt(s.start);
+        nearField(h, s, r, c, float(at.first) * c.interval - at.along, skyDepth);
+        h.blocked = (c.parts & kNearPart) != 0u ? h.blocked : 0.0;
+        if ((c.parts & kFarPart) != 0u) farField(h, s, at, c, low, low + step);
+        sum += s.weight * vec2(h.blocked, 1.0);
+        low += step;
+        along = mat2(turn.next, vec2(-turn.next.y, turn.next.x)) * along;
+    }
+    return sum;
+}
+
+#endif

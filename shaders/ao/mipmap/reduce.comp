@@ -1,0 +1,25 @@
+// One level of a depth pyramid: the mean over the texels it covers, or the nearest of them where depths must not be mixed. A level of odd
+// size is covered by three texels on that axis, the outer ones in part, so that levels stay on top of each other.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, r32f) uniform readonly image2D finer;
+layout(set = 0, binding = 1, r32f) uniform writeonly image2D coarser;
+layout(push_constant) uniform Constants { uint nearest; };
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy), size = imageSize(coarser), last = imageSize(finer) - 1;
+    if (any(greaterThanEqual(p, size))) return;
+    vec2 ratio = vec2(last + 1) / vec2(size), from = vec2(p) * ratio, to = from + ratio;
+    ivec2 first = ivec2(from + 1e-3);
+    float sum = 0.0, least = 3.0e38, weights = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 q = first + ivec2(i % 3, i / 3);
+        vec2 covered = max(min(to, vec2(q + 1)) - max(from, vec2(q)), 0.0);
+        float z = imageLoad(finer, min(q, last)).x, weight = covered.x * covered.y;
+        sum += weight * z;
+        weights += weight;
+        least = weight > 1e-3 ? min(least, z) : least;
+    }
+    imageStore(coarser, p, vec4(nearest != 0u ? least : sum / weights));
+}

@@ -1,0 +1,70 @@
+// Accuracy on the stored captured frames, against rays marched through the same depth buffer.
+#include "ao/oracle.h"
+
+namespace obscura::test {
+namespace {
+
+struct Error {
+    double eA = 0.0, e5 = 0.0;
+};
+
+class FarFieldOracle : public OracleTest {
+protected:
+    FarFieldOracle() : OracleTest("far_field") {}
+
+    // Means over corner and atrium, exponential falloffs of 1 and 3 m.
+    Error mean(const ao::Values& values) {
+        Error result;
+        for (const char* scene : {"corner", "atrium"}) {
+            for (const char* falloff : {"exponential:1", "exponential:3"}) {
+                std::string channel = std::string("screen.") + falloff;
+                std::replace(channel.begin(), channel.end(), ':', '_');
+                const truth::Metrics metrics = measure(scene, values, falloff, channel);
+                result.eA += 0.25 * double(metrics.raw.eA);
+                result.e5 += 0.25 * double(metrics.raw.e5);
+            }
+        }
+        return result;
+    }
+};
+
+TEST_F(FarFieldOracle, improved) {
+    const Error error = mean(values({}));
+    EXPECT_LE(error.eA, 0.011);
+    EXPECT_GE(error.e5, 0.97);
+}
+
+TEST_F(FarFieldOracle, interleaved) { EXPECT_LE(mean(values({}, "fast")).eA, 0.019); }
+
+// The paper's own settings are meant to be as wrong as they are: 0.0212 was measured on another implementation.
+TEST_F(FarFieldOracle, thePapersErrorIsThePapers) { EXPECT_NEAR(mean(values({}, "paper_16x2")).eA, 0.0212, 0.15 * 0.0212); }
+
+TEST_F(FarFieldOracle, everyStepTowardsTheDefaultHelps) {
+    const double slab = mean(values({}, "paper_16x2")).eA;
+    const double connected = mean(values({{"estimator", 1}}, "paper_16x2")).eA;
+    EXPECT_LT(connected, 0.8 * slab);
+    EXPECT_LT(mean(values({})).eA, connected);
+}
+
+TEST_F(FarFieldOracle, sparseLinesCostLittle) {
+    EXPECT_LE(mean(values({{"lines", 1}})).eA, 0.012);
+    EXPECT_LE(mean(values({{"lines", 2}})).eA, 0.014);
+}
+
+TEST_F(FarFieldOracle, skyBehindASphere) { EXPECT_LE(measure("sphere", values({}), "exponential:1", "screen.exponential_1").raw.eA, 0.008f); }
+
+class MipmapOracle : public FarFieldOracle {
+protected:
+    MipmapOracle() { m_method = "mipmap"; }
+};
+
+TEST_F(MipmapOracle, thePapersErrorIsThePapers) { EXPECT_NEAR(mean(values({})).eA, 0.0338, 0.2 * 0.0338); }
+
+TEST_F(MipmapOracle, convergesSlowly) {
+    const double dense = mean(values({}, "dense")).eA;
+    EXPECT_LT(dense, 0.5 * mean(values({})).eA);
+    EXPECT_GT(dense, 0.011);
+}
+
+}  // namespace
+}  // namespace obscura::test
