@@ -35,9 +35,7 @@ graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::I
         return visibility;
     }
     const shared::uvec2 size = inputs.view.visible;
-    const auto past = graph.history(std::string(passName) + " past", {VK_FORMAT_R32_UINT, size.x, size.y}, m_past);
-    const auto depth = graph.history(std::string(passName) + " depth", {VK_FORMAT_R32_SFLOAT, size.x, size.y}, m_depth);
-    const auto normals = graph.history(std::string(passName) + " normals", {VK_FORMAT_R32_UINT, size.x, size.y}, m_normals);
+    const auto past = graph.history(std::string(passName) + " past", {VK_FORMAT_R32G32_UINT, size.x, size.y}, m_past);
     Reprojection constants{};
     std::copy_n(inputs.previousFromEye, 12, constants.previousFromEye);
     constants.history = std::min(settings.history, 0.98f);
@@ -45,18 +43,15 @@ graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::I
     constants.normalTolerance = settings.normalTolerance;
     constants.clip = settings.clip;
     constants.clipFloor = settings.clipFloor;
-    constants.valid = past.valid && depth.valid && normals.valid ? 1 : 0;
+    constants.valid = past.valid ? 1 : 0;
     const graph::ImageId result = graph.image(passName, graph.desc(visibility));
     graph.pass(passName, m_reproject).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(inputs.motion).read(visibility)
-        .read(past.previous).read(depth.previous).read(normals.previous)
-        .write(result).write(past.current).write(depth.current).write(normals.current).constants(constants).dispatch(size.x, size.y);
+        .read(past.previous).write(result).write(past.current).constants(constants).dispatch(size.x, size.y);
     return result;
 }
 
 void Temporal::reset() {
     m_past.invalidate();
-    m_depth.invalidate();
-    m_normals.invalidate();
 }
 
 }  // namespace obscura::ao

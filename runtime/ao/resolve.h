@@ -38,9 +38,7 @@ public:
 
 private:
     gpu::Program m_reproject;
-    graph::History m_past;     // R32UI: visibility as 16-bit unorm, low; frames gathered, high
-    graph::History m_depth;    // R32F: linear depth
-    graph::History m_normals;  // R32UI: packNormal()
+    graph::History m_past;  // RG32UI: linear depth as a float's bits; visibility, frames gathered and normal, see temporal.comp
 };
 
 }  // namespace obscura::ao

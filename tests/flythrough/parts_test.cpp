@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/complaint.h"
+#include "gate.h"
 #include "report.h"
 
 namespace obscura::flythrough {
@@ -72,6 +73,24 @@ TEST(Parts, summaryIsOfFramesThatHaveOneBefore) {
     EXPECT_EQ(s.worst, 4u);
     EXPECT_EQ(s.milliseconds, 2.0);
     EXPECT_EQ(summarize(part(4, 6)).t90, 3u);
+}
+
+TEST(Calm, survivesItsFileAndFailsWhatWorsens) {
+    Calm held;
+    const CalmKey hbao{"hbao", "default", "teleport", "temporal"};
+    held.rows[hbao] = {0.0100, 0.0010, 4};
+    const auto file = std::filesystem::temp_directory_path() / "obscura-calm-test.json";
+    std::ofstream(file) << calmText(held);
+    EXPECT_EQ(calmText(readCalm(file)), calmText(held));
+    std::filesystem::remove(file);
+
+    const auto lines = [&](CalmRow row) { return judge(held, {{hbao, row}}).size(); };
+    EXPECT_EQ(lines({0.0100, 0.0010, 4}), 0u);
+    EXPECT_EQ(lines({0.0104, 0.0010, 4}), 0u);
+    EXPECT_EQ(lines({0.0106, 0.0010, 4}), 1u);
+    EXPECT_EQ(lines({0.0050, 0.0010, 5}), 1u);
+    EXPECT_EQ(lines({0.0106, 0.0012, 5}), 3u);
+    EXPECT_EQ(judge(held, {{{"new", "default", "teleport", "temporal"}, {}}}).size(), 1u);
 }
 
 }  // namespace

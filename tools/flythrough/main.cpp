@@ -7,7 +7,7 @@
 
 #include "app/complaint.h"
 #include "app/files.h"
-#include "options.h"
+#include "gate.h"
 #include "report.h"
 
 namespace obscura::flythrough {
@@ -84,8 +84,8 @@ int run(int argc, char** argv) {
         case Job::fly: return fly(*options);
         case Job::merge: return merge(*options);
         case Job::printJobs: std::fputs(jobList(*options).c_str(), stdout); return 0;
-        case Job::checkBaseline:
-        case Job::renewBaseline: break;
+        case Job::checkBaseline: return checkBaseline(*options);
+        case Job::renewBaseline: return renewBaseline(*options);
     }
     return 0;
 }

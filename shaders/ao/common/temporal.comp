@@ -1,7 +1,7 @@
 // Temporal reprojection of visibility. The past lies where the motion vector leads; of its four pixels those count, bilinearly,
 // that lie in the plane of this pixel's surface as last frame's camera saw it and face the same way. The past is drawn into
 // the spread of the present around the pixel, which takes the trail of occluders that moved, and how far it had to be drawn
-// shortens its memory. R32UI keeps visibility in 16 bits: in a half, slow averages stand still a 1/255 off.
+// shortens its memory. Visibility is kept in 14 bits: in 8 or in a half, slow averages stand still a 1/255 off.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"
@@ -12,32 +12,34 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3) uniform sampler2D motion;
 layout(set = 0, binding = 4, r16f) uniform readonly image2D present;
-layout(set = 0, binding = 5) uniform usampler2D past;
-layout(set = 0, binding = 6, r32f) uniform readonly image2D pastDepth;
-layout(set = 0, binding = 7) uniform usampler2D pastNormals;
-layout(set = 0, binding = 8, r16f) uniform writeonly image2D result;
-layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D pastNow;
-layout(set = 0, binding = 10, r32f) uniform writeonly image2D depthNow;
-layout(set = 0, binding = 11, r32ui) uniform writeonly uimage2D normalsNow;
+layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2D past;
+layout(set = 0, binding = 6, r16f) uniform writeonly image2D result;
+layout(set = 0, binding = 7, rg32ui) uniform writeonly uimage2D pastNow;
 layout(push_constant) uniform Constants {
     vec4 previousFromEye[3];  // rows
     float history, depthTolerance, normalTolerance, clip, clipFloor;
     uint valid;
 } constants;
 
-const float kLongest = 255.0;  // frames that are counted
+const float kLongest = 63.0;  // frames that are counted
+
+// 14 bits of visibility, 6 of frames, 6 and 6 of the normal's octahedral map (3 degrees at worst).
+uint packPast(float value, float frames, uint normal) {
+    uvec2 e = uvec2((unpackSnorm2x16(normal) * 0.5 + 0.5) * 63.0 + 0.5);
+    return uint(value * 16383.0 + 0.5) | uint(frames + 0.5) << 14 | e.x << 20 | e.y << 26;
+}
 
 void main() {
+    // Copies, so that the loops hold them in registers.
     View view = viewBlock;
+    float farthest = constants.depthTolerance, leastCosine = constants.normalTolerance;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), guard = ivec2(view.guard), last = ivec2(view.visible) - 1;
     if (any(greaterThan(p, last))) return;
     float z = imageLoad(depth, p + guard).x, now = imageLoad(present, p).x;
     uint packedNormal = imageLoad(normals, p + guard).x;
-    imageStore(depthNow, p, vec4(z));
-    imageStore(normalsNow, p, uvec4(packedNormal));
     if (isSky(view, z)) {
         imageStore(result, p, vec4(now));
-        imageStore(pastNow, p, uvec4(packUnorm2x16(vec2(now, 0.0))));
+        imageStore(pastNow, p, uvec4(floatBitsToUint(z), packPast(now, 0.0, packedNormal), 0, 0));
         return;
     }
 
@@ -49,26 +51,28 @@ void main() {
     vec2 at = vec2(p) + texelFetch(motion, p + guard, 0).xy;  // in texel centres of the visible part
     // A receiver that moves is not where the camera alone would have it; the plane is laid through where its pixel was.
     float moved = -there.z;
-    vec3 anchor = eyePosition(view, at + 0.5 + vec2(guard), moved);
+    float plane = dot(eyePosition(view, at + 0.5 + vec2(guard), moved), faced);
+    farthest *= moved;
 
     vec2 corner = floor(at), part = at - corner;
-    float sum = 0.0, length = 0.0, weights = 0.0;
+    float sum = 0.0, gathered = 0.0, weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1), q = ivec2(corner) + step;
         bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThanEqual(q, last));
         ivec2 c = clamp(q, ivec2(0), last);
-        float zq = imageLoad(pastDepth, c).x;
-        float off = abs(dot(eyePosition(view, vec2(c + guard) + 0.5, zq) - anchor, faced));
-        bool same = inside && off <= constants.depthTolerance * moved && dot(unpackNormal(texelFetch(pastNormals, c, 0).x), faced) >= constants.normalTolerance;
+        uvec2 stored = imageLoad(past, c).xy;
+        float zq = uintBitsToFloat(stored.x);
+        float off = abs(dot(eyePosition(view, vec2(c + guard) + 0.5, zq), faced) - plane);
+        vec3 m = fromOctahedron(vec2(stored.yy >> uvec2(20, 26) & 63u) * (2.0 / 63.0) - 1.0);
+        bool same = inside && off <= farthest && dot(m, faced) >= leastCosine;
         vec2 w2 = mix(1.0 - part, part, vec2(step));
         float w = same ? w2.x * w2.y : 0.0;
-        vec2 stored = unpackUnorm2x16(texelFetch(past, c, 0).x);
-        sum += w * stored.x;
-        length += w * stored.y;
+        sum += w * float(stored.y & 16383u);
+        gathered += w * float(stored.y >> 14 & 63u);
         weights += w;
     }
     bool known = constants.valid != 0u && weights > 0.01;
-    float before = known ? sum / weights : now, frames = known ? length / weights * 65535.0 : 0.0;
+    float before = known ? sum / (weights * 16383.0) : now, frames = known ? gathered / weights : 0.0;
 
     float mean = 0.0, square = 0.0;
     for (int y = -1; y <= 1; ++y)
@@ -85,5 +89,5 @@ void main() {
     frames = min(frames + 1.0, kLongest);
     float value = mix(now, drawn, known ? min(1.0 - 1.0 / frames, constants.history) : 0.0);
     imageStore(result, p, vec4(value));
-    imageStore(pastNow, p, uvec4(packUnorm2x16(vec2(value, frames / 65535.0))));
+    imageStore(pastNow, p, uvec4(floatBitsToUint(z), packPast(value, frames, packedNormal), 0, 0));
 }
