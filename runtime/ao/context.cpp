@@ -146,6 +146,8 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
     if (!complete(frame.depth)) return say(*context, "Frame::depth lacks its image, view, format or layout"), output;
     const bool hasNormals = frame.normals.image || frame.normals.view;
     if (hasNormals && !complete(frame.normals)) return say(*context, "Frame::normals lacks its image, view, format or layout"), output;
+    const bool hasMotion = frame.motion.image || frame.motion.view;
+    if (hasMotion && !complete(frame.motion)) return say(*context, "Frame::motion lacks its image, view, format or layout"), output;
     shared::View view;
     const char* reason = nullptr;
     if (viewOf(frame, view, reason) != Status::ok) return say(*context, reason), output;
@@ -162,6 +164,8 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
     Sources sources;
     sources.depth = importView(graph, "depth", frame.depth, frame.size);
     if (hasNormals) sources.normals = importView(graph, "normals", frame.normals, frame.size);
+    if (hasMotion) sources.motion = importView(graph, "motion", frame.motion, frame.size);
+    if (frame.cut) context->library->reset();
     const graph::ImageId visibility = context->library->add(graph, frame, sources, context->falloff, *context->values);
     if (!visibility) return output.status = Status::shaderError, output;
 

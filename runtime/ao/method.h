@@ -19,7 +19,8 @@ struct Inputs {
     graph::BufferId viewBlock;   // View as a uniform buffer
     graph::ImageId depth;        // R32F, view.size: linear depth, sky at view.skyDepth
     graph::ImageId normals;      // R32UI, view.size: geometric eye-space normals, packNormal()
-    graph::ImageId motion;       // RG16F, view.size, optional: pixels from this frame's position to last frame's (previous = here + motion)
+    graph::ImageId motion;       // two floats, view.size, optional: times motionScale, px from this frame's position to last frame's
+    float motionScale[2];
     float previousFromEye[12];   // three rows: where a point of this frame's eye space that stands still in the world was in last frame's
     shared::FalloffBlock falloff;
     Falloff falloffDesc;

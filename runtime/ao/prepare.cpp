@@ -37,6 +37,8 @@ Inputs Prepare::add(graph::Graph& graph, const Frame& frame, const shared::View&
     inputs.falloffDesc = falloff;
     inputs.falloff = falloffBlock(falloff);
     inputs.motion = sources.motion;
+    inputs.motionScale[0] = frame.motionScale[0];
+    inputs.motionScale[1] = frame.motionScale[1];
     if (sources.direct) {
         inputs.depth = sources.depth;
         inputs.normals = sources.normals;

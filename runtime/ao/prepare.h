@@ -9,7 +9,7 @@ namespace obscura::ao {
 struct Sources {
     graph::ImageId depth;
     graph::ImageId normals;  // none: reconstructed from depth
-    graph::ImageId motion;   // none: no motion; RG16F as in Inputs
+    graph::ImageId motion;   // none: no motion; scaled as the Frame says
     bool direct = false;     // depth and normals have the form of Inputs already and may be storage images: taken as they are
 };
 

@@ -8,6 +8,7 @@ namespace {
 
 struct Reprojection {  // temporal.comp
     float previousFromEye[12];
+    float motionScale[2];
     float history, depthTolerance, normalTolerance, clip, clipFloor;
     uint32_t valid;
 };
@@ -38,6 +39,7 @@ graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::I
     const auto past = graph.history(std::string(passName) + " past", {VK_FORMAT_R32G32_UINT, size.x, size.y}, m_past);
     Reprojection constants{};
     std::copy_n(inputs.previousFromEye, 12, constants.previousFromEye);
+    std::copy_n(inputs.motionScale, 2, constants.motionScale);
     constants.history = std::min(settings.history, 0.98f);
     constants.depthTolerance = settings.depthTolerance;
     constants.normalTolerance = settings.normalTolerance;

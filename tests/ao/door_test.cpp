@@ -94,6 +94,45 @@ TEST_F(DoorTest, afterTheFirstFramesNothingIsAllocated) {
     EXPECT_GT(timings(m_context).size(), 2u);
 }
 
+// Motion comes in whatever unit the host has; a picture that slides is followed, one that is cut starts anew.
+TEST_F(DoorTest, motionIsScaledToPixelsAndACutForgets) {
+    const auto motionImage = [&](float x, float y) {
+        gpu::Image image;
+        EXPECT_EQ(gpu::Image::create(m_device, {VK_FORMAT_R32G32_SFLOAT, m_room.width, m_room.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                                     "motion", image), gpu::Status::ok);
+        std::vector<float> texels;
+        for (uint32_t i = 0; i < m_room.width * m_room.height; ++i) texels.insert(texels.end(), {x, y});
+        EXPECT_EQ(gpu::upload(m_device, image, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
+        return image;
+    };
+    const Setting history{"temporal", 0.9f};
+    MethodSettings settings;
+    settings.settings = {&history, 1};
+    ASSERT_EQ(setMethod(m_context, "hbao", settings), Status::ok);
+    const auto twoFrames = [&](const gpu::Image& motion, float scaleX, float scaleY, bool cutLast) {
+        Frame f = frame();
+        f.motion = {motion.handle(), motion.view(), VK_FORMAT_R32G32_SFLOAT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        f.motionScale[0] = scaleX;
+        f.motionScale[1] = scaleY;
+        f.cut = true;
+        EXPECT_EQ(once(f).status, Status::ok);
+        f.cut = cutLast;
+        f.index = 1;
+        return pixels(once(f));
+    };
+    const gpu::Image inPixels = motionImage(3.0f, -2.0f);
+    const gpu::Image inNdc = motionImage(-6.0f / float(m_room.width), -4.0f / float(m_room.height));  // y up, towards the present
+    const std::vector<float> followed = twoFrames(inPixels, 1, 1, false);
+    EXPECT_EQ(twoFrames(inNdc, -0.5f * float(m_room.width), 0.5f * float(m_room.height), false), followed);
+    EXPECT_NE(twoFrames(inPixels, 0, 0, false), followed);
+    EXPECT_NE(twoFrames(inPixels, 1, 1, true), followed);
+    Frame f = frame();
+    f.motion.image = m_depth.handle();
+    EXPECT_EQ(once(f).status, Status::invalid);
+    EXPECT_TRUE(said("Frame::motion"));
+    m_device.waitIdle();
+}
+
 TEST_F(DoorTest, aResizeGivesThePictureOfTheNewSize) {
     ASSERT_EQ(once(frame()).status, Status::ok);
     m_device.waitIdle();

@@ -62,6 +62,7 @@ protected:
         inputs.depth = image(kept[0], VK_FORMAT_R32_SFLOAT, width, height, depth);
         inputs.normals = image(kept[1], VK_FORMAT_R32_UINT, width, height, normals);
         if (frame.hasMotion) inputs.motion = image(kept[2], VK_FORMAT_R32G32_SFLOAT, width, height, motion);
+        inputs.motionScale[0] = inputs.motionScale[1] = 1.0f;
         const float rows[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -frame.advanced};
         std::copy_n(rows, 12, inputs.previousFromEye);
         std::vector<uint16_t> halves;

@@ -17,6 +17,7 @@ layout(set = 0, binding = 6, r16f) uniform writeonly image2D result;
 layout(set = 0, binding = 7, rg32ui) uniform writeonly uimage2D pastNow;
 layout(push_constant) uniform Constants {
     vec4 previousFromEye[3];  // rows
+    vec2 motionScale;         // to px
     float history, depthTolerance, normalTolerance, clip, clipFloor;
     uint valid;
 } constants;
@@ -48,7 +49,7 @@ void main() {
     vec4 r0 = constants.previousFromEye[0], r1 = constants.previousFromEye[1], r2 = constants.previousFromEye[2];
     vec3 there = vec3(dot(r0.xyz, here) + r0.w, dot(r1.xyz, here) + r1.w, dot(r2.xyz, here) + r2.w);
     vec3 faced = vec3(dot(r0.xyz, n), dot(r1.xyz, n), dot(r2.xyz, n));
-    vec2 at = vec2(p) + texelFetch(motion, p + guard, 0).xy;  // in texel centres of the visible part
+    vec2 at = vec2(p) + texelFetch(motion, p + guard, 0).xy * constants.motionScale;  // in texel centres of the visible part
     // A receiver that moves is not where the camera alone would have it; the plane is laid through where its pixel was.
     float moved = -there.z;
     float plane = dot(eyePosition(view, at + 0.5 + vec2(guard), moved), faced);

@@ -131,6 +131,10 @@ struct Frame {
     ImageView normals;                   // optional: geometric normals, sampled usage
     NormalKind normalKind = NormalKind::eye;
     NormalEncoding normalEncoding = NormalEncoding::signedFloat;
+    ImageView motion;                    // optional, for `temporal`: where each pixel's surface was, two floats, sampled usage, `size`
+    float motionScale[2] = {1, 1};       // motion times this: px from here to last frame's position, y down. Motion in UV:
+                                         // {width, height}; in NDC with y up: {width/2, -height/2}; from the past: negated
+    bool cut = false;                    // first frame after a jump: last frame's picture is no past of this one
     float skyDepth = 0.0f;               // linear depths from here on are sky; 0: what the projection's far plane says
     uint64_t index = 0;                  // counts frames
 };
