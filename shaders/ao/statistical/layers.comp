@@ -40,10 +40,11 @@ void main() {
 
     // Whole texels: a share of a texel at the window's edge cannot change what lies clearly before or behind.
     float reach = halfWindow(view, box, d / units) / float(box.texelSide);
-    uvec2 low = uvec2(clamp(round(vec2(t) + 0.5 - reach), vec2(0.0), vec2(t)));
-    uvec2 high = uvec2(clamp(round(vec2(t) + 0.5 + reach), vec2(t) + 1.0, vec2(size)));
+    ivec2 low = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 - reach)), ivec2(0), ivec2(t));
+    ivec2 high = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 + reach)), ivec2(t) + 1, ivec2(size));
     uint pitch = size.x + 1u;
-    uvec4 corner = uvec4(low.y * pitch + low.x, low.y * pitch + high.x, high.y * pitch + low.x, high.y * pitch + high.x);
+    uvec2 rows = uvec2(low.y, high.y) * pitch, columns = uvec2(low.x, high.x);
+    uvec4 corner = uvec4(rows.x + columns, rows.y + columns);
     uvec2 sum = WINDOW(root, 1u, 0u);
     uint code = level > 1u ? codes[at] : 0u;
     if (level == 2u) {
@@ -57,6 +58,6 @@ void main() {
         uvec2 nearer = WINDOW(second, 2u, branch);
         sum = (code & 2u) != 0u ? nearer : sum - nearer;
     }
-    bool before = d < -float(int(sum.x)) / float(sum.y);  // its own texel is in the sum, so there is a mean
+    bool before = d < -float(int(sum.x)) / float(int(sum.y));  // its own texel is in the sum, so there is a mean
     codes[at] = code | (before ? 1u << (level - 1u) : 0u);
 }

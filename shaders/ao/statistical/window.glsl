@@ -17,8 +17,9 @@ struct Axis {
 
 Axis axisOf(float centre, float reach, uint size) {
     vec3 edges = clamp(centre + reach * vec3(-1.0, split == 2u ? 0.0 : 1.0, 1.0), 0.0, float(size));
-    uvec3 lines = min(uvec3(edges), size - 1u);
-    vec3 part = edges - vec3(lines);
+    ivec3 whole = min(ivec3(edges), int(size) - 1);  // signed: what processors convert fast
+    vec3 part = edges - vec3(whole);
+    uvec3 lines = uvec3(whole);
     return Axis(lines.x, lines.x + 1u, lines.y, lines.y + 1u, lines.z, lines.z + 1u, part.x, part.y, part.z, edges.yz - edges.xy);
 }
 
