@@ -1,4 +1,6 @@
 // A wall behind a floor, whose numbers are known from an independent implementation, and what parameters must do there.
+#include <random>
+
 #include "statistical/bench.h"
 
 namespace obscura::test {
@@ -99,6 +101,26 @@ TEST_F(StatisticalTest, seedsDoNotMatter) {
         other.index = 12345;
         EXPECT_EQ(run(room, one, values({}, preset.id), "quadratic:1"), run(room, other, values({}, preset.id), "quadratic:1")) << preset.id;
     }
+}
+
+TEST_F(StatisticalTest, aBoxTooWideForItsWindowShrinksAndKeepsItsShape) {
+    // Orthographic, 5 cm a pixel, so that windows are equally wide everywhere: 16 px where 8.8 are the most.
+    Room room;
+    room.build();
+    const float scale = 2.0f / 0.05f;
+    const float orthographic[16] = {scale / float(room.width), 0, 0, 0, 0, -scale / float(room.height), 0, 0, 0, 0, -0.01f, 0, 0, 0, 0, 1};
+    std::memcpy(room.projection, orthographic, sizeof(orthographic));
+    std::mt19937 random(3);
+    for (size_t i = 0; i < room.depth.size(); ++i) {
+        room.depth[i] = 4.0f + float(random() % 100) * 0.004f;
+        room.normals[4 * i + 1] = 0.0f;
+        room.normals[4 * i + 2] = 1.0f;
+    }
+    const Picture wide = run(room, values({{"radius", 0.8f}, {"height", 1}, {"largest", 0.11f}})), narrow = run(room, values({{"radius", 0.44f}, {"height", 0.55f}}));
+    EXPECT_GT(mean(narrow), 0.05);
+    double difference = 0.0;
+    for (size_t i = 0; i < wide.size(); ++i) difference = std::max(difference, std::abs(double(wide[i]) - narrow[i]));
+    EXPECT_LT(difference, 0.002);
 }
 
 TEST_F(StatisticalTest, theBoxFollowsTheFalloff) {
