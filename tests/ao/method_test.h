@@ -64,7 +64,8 @@ protected:
         gpu::Buffer back, probe;
         const auto readBack = [&](graph::ImageId image, gpu::Buffer& buffer) {
             const gpu::ImageDesc desc = m_graph->desc(image);
-            EXPECT_EQ(gpu::Buffer::create(m_device, uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", buffer), gpu::Status::ok);
+            const uint64_t bytes = uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format);
+            EXPECT_EQ(gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", buffer), gpu::Status::ok);
             const graph::BufferId target = m_graph->import("back", buffer, graph::Graph::Shared::written);
             m_graph->pass("read back").use(image, graph::Access::transferRead).use(target, graph::Access::transferWrite).keep()
                 .record([image, desc, to = buffer.handle()](const graph::PassContext& c) {

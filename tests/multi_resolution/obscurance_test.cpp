@@ -13,7 +13,8 @@ std::vector<const char*> presets() {
 }
 
 TEST_F(Obscurance, ofAPlaneOfAnyTiltIsNone) {
-    for (const std::array<float, 3>& n : {std::array{0.0f, 1.0f, 0.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{1.0f, 0.1f, 0.2f}, std::array{0.3f, -0.2f, 1.0f}})
+    const std::array<float, 3> normals[] = {{0, 1, 0}, {0.5f, 1, 0.05f}, {1, 0.1f, 0.2f}, {0.3f, -0.2f, 1}};
+    for (const auto& n : normals)
         for (const char* preset : presets()) EXPECT_LT(highest(run(plane(n), values({}, preset))), 1e-5f) << preset << " " << n[0];
 }
 
@@ -97,7 +98,12 @@ TEST_F(Obscurance, isTheSameAtAHundredTimesTheScale) {
     for (const char* preset : presets()) {
         Room room = hall();
         for (uint32_t y = 90; y < 150; ++y)  // a box before the wall, so that there are edges
-            for (uint32_t x = 120; x < 180; ++x) room.depth[size_t(y) * room.width + x] = 5.5f, room.normals[4 * (size_t(y) * room.width + x) + 1] = 0.0f, room.normals[4 * (size_t(y) * room.width + x) + 2] = 1.0f;
+            for (uint32_t x = 120; x < 180; ++x) {
+                const size_t i = size_t(y) * room.width + x;
+                room.depth[i] = 5.5f;
+                room.normals[4 * i + 1] = 0.0f;
+                room.normals[4 * i + 2] = 1.0f;
+            }
         const Picture metres = run(room, values({}, preset), "quadratic:2");
         for (float& z : room.depth) z *= 100.0f;
         ao::Frame frame = room.frame();
@@ -109,7 +115,8 @@ TEST_F(Obscurance, isTheSameAtAHundredTimesTheScale) {
 }
 
 TEST_F(Obscurance, bearsSkyOddSizesAndTinyPictures) {
-    for (const auto& [width, height, guard] : {std::array{161u, 97u, 8u}, std::array{8u, 8u, 0u}, std::array{9u, 13u, 1u}, std::array{63u, 130u, 0u}, std::array{1u, 1u, 0u}})
+    const std::array<uint32_t, 3> sizes[] = {{161, 97, 8}, {8, 8, 0}, {9, 13, 1}, {63, 130, 0}, {1, 1, 0}};
+    for (const auto& [width, height, guard] : sizes)
         for (const bool sky : {false, true})
             for (const char* preset : presets()) {
                 Room room;
@@ -120,7 +127,8 @@ TEST_F(Obscurance, bearsSkyOddSizesAndTinyPictures) {
                 room.build();
                 if (sky) std::fill(room.depth.begin(), room.depth.end(), 1e4f);
                 for (const float levels : {2.0f, 6.0f})
-                    for (const float v : run(room, values({{"levels", levels}}, preset))) ASSERT_TRUE(sky ? v == 0.0f : v >= 0.0f && v <= 1.0f) << width << " " << preset;
+                    for (const float v : run(room, values({{"levels", levels}}, preset)))
+                        ASSERT_TRUE(sky ? v == 0.0f : v >= 0.0f && v <= 1.0f) << width << " " << preset;
             }
 }
 

@@ -7,7 +7,9 @@ namespace {
 class Oracle : public OracleTest {
 protected:
     Oracle() : OracleTest("multi_resolution") {}
-    truth::Metrics measure(const std::string& name, const char* preset) { return OracleTest::measure(name, values({}, preset), "quadratic:2", "world.quadratic_2"); }
+    truth::Metrics measure(const std::string& name, const char* preset) {
+        return OracleTest::measure(name, values({}, preset), "quadratic:2", "world.quadratic_2");
+    }
 };
 
 TEST_F(Oracle, corner) {
