@@ -70,8 +70,8 @@ TEST_F(Levels, sampleAsManyAsTheirRadiusAsksFor) {
     close.pop_back();  // its 14 rows are too few to hold the pattern
     EXPECT_EQ(close, (std::vector<float>{16, 36, 36, 36}));
     EXPECT_EQ(counts(20.0f, {{"levels", 5}}), (std::vector<float>{16, 36, 16, 4, 0}));
-    EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"finest", 0}, {"first_radius", 0.5f}}), (std::vector<float>{36, 16, 4, 0, 0}));
-    EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"finest", 0}, {"max_radius", 2}}), (std::vector<float>{9, 9, 9, 4, 0}));
+    EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"pattern", 0}, {"first_radius", 0.5f}}), (std::vector<float>{36, 16, 4, 0, 0}));
+    EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"pattern", 0}, {"max_radius", 2}}), (std::vector<float>{9, 9, 9, 4, 0}));
 }
 
 TEST_F(Levels, samplesOutsideTheBuffersAreNotCounted) {

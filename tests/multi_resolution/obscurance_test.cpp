@@ -27,7 +27,7 @@ TEST_F(Obscurance, joinsMaximumAndMean) {
     const Room room = wall(3.0f, {0.8f, 0.0f, 0.6f});
     const size_t middle = size_t(room.visibleHeight() / 2) * room.visibleWidth() + room.visibleWidth() / 2;
     for (const float gain : {0.5f, 1.0f, 2.0f}) {
-        const Picture picture = run(room, values({{"levels", 3}, {"finest", 0}, {"gain", gain}}, "paper"), "constant:3");
+        const Picture picture = run(room, values({{"levels", 3}, {"pattern", 0}, {"gain", gain}}, "paper"), "constant:3");
         EXPECT_NEAR(picture.at(middle), 1.0f - std::pow(1.0f - gain * m, 2.0f), 0.003f) << gain;
     }
     EXPECT_EQ(run(room, values({}, "paper"), "constant:0.001").at(middle), 0.0f) << "no samples at any level";

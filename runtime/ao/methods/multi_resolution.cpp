@@ -52,7 +52,7 @@ struct UpsampleConstants {
     uint32_t planes;
 };
 
-const char* const kPatterns[] = {"every other texel", "disk"};
+const char* const kPatterns[] = {"squares", "disk at the finest", "disks"};
 enum : uint32_t { kMean, kDirected };
 const char* const kEstimates[] = {"mean cosine", "directed"};
 const char* const kEdges[] = {"depth", "plane"};
@@ -60,7 +60,7 @@ const Parameter kParameters[] = {
     {"levels", "", 2, 6, 5, true, {}, "Resolutions, n; each one more doubles how far samples reach and costs a quarter of the one before."},
     {"max_radius", "texels", 1, 16, 7, false, {}, "Longest reach of samples in each level, r_max; beyond the paper's 5 the same samples lie further apart."},
     {"first_radius", "", 0.25f, 2, 1, false, {}, "Reach at the finest level over the falloff's own; it halves from level to level. 0.5 is the paper's equation 5."},
-    {"finest", "", 0, 1, 1, true, {kPatterns, 2}, "Where the finest level samples: up to 36 texels of a square, or 16 points on a disk."},
+    {"pattern", "", 0, 2, 1, true, {kPatterns, 3}, "Where levels sample: up to 36 texels of a square, or 16 points on a disk, at the finest level as in the paper or at all."},
     {"obscurance", "", 0, 1, 1, true, {kEstimates, 2}, "What samples add up to: a mean of cosines as in the paper, or squared cosines with a direction, which fine levels evaluate along their own normals."},
     {"gain", "", 0, 4, 1.7f, false, {}, "Factor on each level's obscurance."},
     {"threshold", "R", 0, 1000, 0.05f, false, {}, "Four texels become their median, or the second nearest if they lie further apart than this many reaches. 0: always the latter."},
@@ -69,12 +69,12 @@ const Parameter kParameters[] = {
 };
 const Setting kPaper[] = {{"levels", 4}, {"max_radius", 5}, {"obscurance", kMean}, {"gain", 1}, {"threshold", 0.5f}, {"edges", 0}, {"tolerance", 0.5f},
                           {"temporal", 0.5f}, {"temporal_clip", 0}};
-const Setting kFast[] = {{"levels", 3}};
-const Setting kQuality[] = {{"finest", 0}, {"gain", 1.8f}};
+const Setting kFast[] = {{"levels", 3}, {"pattern", 2}};
+const Setting kQuality[] = {{"pattern", 0}, {"gain", 1.8f}};
 const Preset kPresets[] = {
     {"default", "5 levels, directed obscurance; tuned on Sponza, the atrium, the dragon and the toasters.", {}},
     {"paper", "As published: 4 levels, r_max 5, 16 points at the finest, half of the past where there are motion vectors.", {kPaper, std::size(kPaper)}},
-    {"fast", "3 levels: creases and contacts only.", {kFast, std::size(kFast)}},
+    {"fast", "3 levels, 16 samples each: creases and contacts.", {kFast, std::size(kFast)}},
     {"quality", "5 levels, 36 samples at the finest.", {kQuality, std::size(kQuality)}},
 };
 const MethodInfo kInfo{"multi_resolution",
@@ -138,7 +138,7 @@ public:
             Level& level = levels[i];
             level.obscurance = obscurance(graph, "near", level, directed && i > 0);
             const SampleConstants constants{inputs.falloff, level.size, level.origin, level.area, level.texel, values["first_radius"], values["max_radius"],
-                                            values["gain"], i == 0 ? values.count("finest") : 0};
+                                            values["gain"], values.count("pattern") > (i ? 1u : 0u)};
             graph.pass(named("sample", level), programs.sample).read(inputs.viewBlock).read(level.depth).read(level.normals)
                 .write(level.obscurance.numbers).write(level.obscurance.directions).constants(constants).dispatch(uint32_t(level.area.x), uint32_t(level.area.y));
         }
