@@ -103,6 +103,7 @@ void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& v
     frame.falloff = options.choice.falloff;
     frame.view = view;
     frame.cut = true;
+    frame.voxels = options.voxels;
     const render::Outputs outputs = m_renderer->add(*m_graph, stage.world, frame);
     m_graph->output(outputs.color);
     expect(m_frames->end(*m_graph), "warming up");

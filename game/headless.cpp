@@ -96,6 +96,7 @@ int runHeadless(const Options& options) {
             frame.exposure = options.exposure * stage.info.exposure;
             frame.cut = i == 0;
             frame.skipMasked = options.skipMasked;
+            frame.voxels = options.voxels;
             const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
             if (i == 0) expectPass(options, graph);
             graph.output(outputs.color);

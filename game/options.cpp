@@ -9,6 +9,7 @@
 #include "app/arguments.h"
 #include "app/complaint.h"
 #include "keys.h"
+#include "scene/hash.h"
 
 namespace obscura::game {
 
@@ -84,6 +85,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, beside the scene's own")->group(kPicture)->check(CLI::Range(0u, 64u))->capture_default_str();
     cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")->group(kPicture);
 
+    cli.add_option("--voxels", options.voxels.cells, "Cells a side of the voxel window, for methods that trace voxels")
+        ->group(kPicture)->check(CLI::IsMember({64u, 128u, 256u, 512u}))->capture_default_str();
+    cli.add_option("--voxel-size", options.voxels.cellSize, "Metres a cell; 0: the scene's longest side fills the window, at most 0.14")
+        ->group(kPicture)->check(CLI::Range(0.0f, 1000.0f))->capture_default_str();
+
     const char* kCamera = "Camera";
     auto* cameraOption = cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")->group(kCamera);
     cli.add_flag("--flythrough", flythrough, "Fly along the scene's own path, where no other camera is named")->group(kCamera);
@@ -145,6 +151,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*framesOption) options.frames = frames;
     if (*switchOption) options.switchTest = switchTest;
     options.vsync = !noVsync;
+    options.voxels.cache = scene::cacheFolder();
     if (flythrough) options.camera.kind = CameraChoice::Kind::flythrough;
     if (*cameraOption) options.camera = cameraOf(camera);
     if (*eyeOption) {

@@ -47,6 +47,7 @@ struct Options {
     float exposure = 1.0f;
     uint32_t toys = 0;                   // dropped at the start
     bool skipMasked = false;
+    render::Voxelization voxels;
     CameraChoice camera;
     Choice choice;
     render::View view = render::View::final;

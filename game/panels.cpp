@@ -141,6 +141,14 @@ void factsPanel(Session& session) {
     ImGui::TextUnformatted(fmt::format("memory {:.1f} MiB: frame {:.1f}, textures {:.1f}, geometry {:.1f}",
                                        double(session.engine.device().memoryUse()) * mebi, double(session.engine.graph().poolBytes()) * mebi,
                                        double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi).c_str());
+    if (const voxel::Voxels* voxels = session.engine.renderer().voxels()) {
+        const voxel::Statistics v = voxels->statistics();
+        ImGui::TextUnformatted(fmt::format("voxels: {}, {:.3g} M cells at rest in {:.1f} MiB ({} in {:.0f} ms)\n{} objects, {} redone; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n"
+                                           "window {:.1f} MiB, {:.1f} KiB sent", v.progress < 1.0f ? fmt::format("building, {:.0f} %", 100.0f * v.progress) : "ready",
+                                           double(v.resting.cells) * 1e-6, double(v.resting.bytes) * mebi, v.resting.fromCache ? "read" : "made", v.resting.milliseconds,
+                                           v.objects, v.redone, v.workerMilliseconds, v.waitMilliseconds, v.worstWait, v.late, double(v.windowBytes) * mebi,
+                                           double(v.changedBytes) / 1024.0).c_str());
+    }
     ImGui::TextUnformatted(fmt::format("eye {:.2f} {:.2f} {:.2f}", camera.eye.x, camera.eye.y, camera.eye.z).c_str());
     ImGui::TextUnformatted(session.engine.device().caps().deviceName.c_str());
     ImGui::PopTextWrapPos();

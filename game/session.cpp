@@ -144,6 +144,8 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.exposure = exposure;
     frame.cut = cut;
     frame.skipMasked = options.skipMasked;
+    frame.voxels = options.voxels;
+    frame.voxels.exact = false;  // a frame behind, and no hitch
     cut = false;
     return frame;
 }

@@ -152,6 +152,9 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
     const char* reason = nullptr;
     if (viewOf(frame, view, reason) != Status::ok) return say(*context, reason), output;
 
+    shared::Volume volume;
+    if (frame.volume.buffer && volumeOf(frame.volume, volume, reason) != Status::ok) return say(*context, reason), output;
+
     gpu::Device& device = *context->device;
     device.nextFrame();
     graph::Graph& graph = *context->graph;
@@ -166,6 +169,8 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
     if (hasNormals) sources.normals = importView(graph, "normals", frame.normals, frame.size);
     if (hasMotion) sources.motion = importView(graph, "motion", frame.motion, frame.size);
     if (frame.cut) context->library->reset();
+    if (const Volume& v = frame.volume; v.buffer)
+        sources.volume = graph.import("volume bits", {v.buffer, v.offset, uint64_t(v.cells) * v.cells * v.cells / 8});
     const graph::ImageId visibility = context->library->add(graph, frame, sources, context->falloff, *context->values);
     if (!visibility) return output.status = Status::shaderError, output;
 

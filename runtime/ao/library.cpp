@@ -51,6 +51,11 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         m_device.log(gpu::Severity::error, std::string("obscurance: ") + reason);
         return {};
     }
+    shared::Volume volume;
+    if (sources.volume && volumeOf(frame.volume, volume, reason) != Status::ok) {
+        m_device.log(gpu::Severity::error, std::string("obscurance: ") + reason);
+        return {};
+    }
     if (!prepare(values.info())) return {};
     view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
     if (m_last != &values.info()) reset();

@@ -10,8 +10,16 @@
 #include "obscura/ao.h"
 #include "shared/falloff.h"
 #include "shared/view.h"
+#include "shared/volume.h"
 
 namespace obscura::ao {
+
+// Occupied cells of the world, where the frame brings them; laid out as shared/volume.h says.
+struct VolumeInput {
+    graph::BufferId bits;        // storage buffer
+    graph::BufferId block;       // Volume as a uniform buffer
+    explicit operator bool() const { return bool(bits); }
+};
 
 // What prepare() hands to every method.
 struct Inputs {
@@ -22,6 +30,7 @@ struct Inputs {
     graph::ImageId motion;       // two floats, view.size, optional: times motionScale, px from this frame's position to last frame's
     float motionScale[2];
     float previousFromEye[12];   // three rows: where a point of this frame's eye space that stands still in the world was in last frame's
+    VolumeInput volume;          // optional
     shared::FalloffBlock falloff;
     Falloff falloffDesc;
 };

@@ -11,11 +11,15 @@ struct Sources {
     graph::ImageId normals;  // none: reconstructed from depth
     graph::ImageId motion;   // none: no motion; scaled as the Frame says
     bool direct = false;     // depth and normals have the form of Inputs already and may be storage images: taken as they are
+    graph::BufferId volume;  // none: no volume; bits as Frame::volume describes them
 };
 
 // The view that a frame's size, guard band and projection describe. The depth convention (standard, reversed, infinite,
 // orthographic, off-centre, flipped y) is read off the matrix. Status::invalid with a reason when it is no projection.
 Status viewOf(const Frame& frame, shared::View& view, const char*& reason);
+
+// The volume block that Frame::volume describes, its buffer aside. Status::invalid with a reason when it is no volume.
+Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason);
 
 // Linear depth of sky in Inputs::depth; view.skyDepth is at most this.
 inline constexpr float kSkyDepth = 1.0e8f;

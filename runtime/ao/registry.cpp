@@ -16,6 +16,7 @@ MethodEntry multiResolutionEntry();
 MethodEntry statisticalEntry();
 MethodEntry farFieldEntry();
 MethodEntry mipmapEntry();
+MethodEntry hybridEntry();
 
 namespace {
 
@@ -40,7 +41,7 @@ struct Composed {
 
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
-        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry()};
+        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

@@ -15,6 +15,16 @@ struct Reprojection {  // temporal.comp
 
 }  // namespace
 
+graph::ImageId allOpen(graph::Graph& graph, const Inputs& inputs, const char* passName) {
+    const graph::ImageId visibility = graph.image(passName, {VK_FORMAT_R16_SFLOAT, inputs.view.visible.x, inputs.view.visible.y});
+    graph.pass(passName).use(visibility, graph::Access::transferWrite, true).record([visibility](const graph::PassContext& c) {
+        const VkClearColorValue open{{1.0f, 1.0f, 1.0f, 1.0f}};
+        const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        c.device.vk().CmdClearColorImage(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &open, 1, &range);
+    });
+    return visibility;
+}
+
 Status Denoise::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Denoise& out) {
     return gpu::Program::compute(device, shaders, "ao/common/denoise.comp", {}, out.m_blur) == gpu::Status::ok ? Status::ok : Status::shaderError;
 }

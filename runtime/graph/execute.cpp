@@ -64,6 +64,10 @@ VkImageView PassContext::view(ImageId id, uint32_t mip) const {
     const Graph::Physical& physical = graph.m_physical[id.index];
     return mip == ~0u ? physical.view : physical.mip(mip);
 }
+ExternalBuffer PassContext::buffer(BufferId id) const {
+    const Graph::Physical& physical = graph.m_physical[id.index];
+    return {physical.buffer, physical.offset, physical.bytes};
+}
 VkImage PassContext::image(ImageId id) const { return graph.m_physical[id.index].image; }
 
 void Graph::barriers(VkCommandBuffer cmd, const std::vector<Barrier>& list) {

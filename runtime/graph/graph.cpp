@@ -154,6 +154,19 @@ BufferId Graph::import(std::string name, const gpu::Buffer& buffer, Shared share
     return {index};
 }
 
+BufferId Graph::import(std::string name, const ExternalBuffer& buffer) {
+    Resource resource{std::move(name), Kind::buffer};
+    State state;
+    state.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    state.writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    resource.initial.assign(1, state);
+    const uint32_t index = add(std::move(resource));
+    m_physical[index].buffer = buffer.buffer;
+    m_physical[index].offset = buffer.offset;
+    m_physical[index].bytes = buffer.bytes;
+    return {index};
+}
+
 BufferId Graph::upload(std::string name, const void* data, size_t bytes) {
     Frame::Upload* chunk = nullptr;
     for (Frame::Upload& upload : m_frame->uploads)

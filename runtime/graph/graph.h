@@ -52,6 +52,12 @@ struct External {
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // last used by; also waits on the acquire semaphore here
 };
 
+// Part of a buffer from outside, written before and kept until the frame has left the GPU.
+struct ExternalBuffer {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    uint64_t offset = 0, bytes = 0;
+};
+
 struct PassTime {
     std::string name;
     double milliseconds = 0.0;
@@ -75,6 +81,7 @@ struct PassContext {
     void push(const void* data, uint32_t bytes, uint32_t offset = 0) const;
     VkImageView view(ImageId id, uint32_t mip = ~0u) const;
     VkImage image(ImageId id) const;
+    ExternalBuffer buffer(BufferId id) const;
 };
 using Record = std::function<void(const PassContext&)>;
 
@@ -129,6 +136,7 @@ public:
     ImageId import(std::string name, const External& image);
     enum class Shared : uint8_t { constant, written };     // constant: the GPU never writes it; written: it may have
     BufferId import(std::string name, const gpu::Buffer& buffer, Shared shared);
+    BufferId import(std::string name, const ExternalBuffer& buffer);
     // Host data for this frame, copied now. Bound as uniform or storage buffer.
     BufferId upload(std::string name, const void* data, size_t bytes);
     template <class T> BufferId upload(std::string name, const T& value) { return upload(std::move(name), &value, sizeof(T)); }

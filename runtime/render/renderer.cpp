@@ -30,6 +30,7 @@ struct Renderer::Impl {
     Shadow shadow;
     Lighting lighting;
     Views views;
+    VoxelVolume voxels;
 
     DrawList draws;                          // of the frame being recorded
     std::optional<scene::Camera> lastCamera;
@@ -99,6 +100,7 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
 
 ao::Library& Renderer::library() { return m_impl->library; }
 SceneFacts Renderer::facts() const { return m_impl->facts; }
+const voxel::Voxels* Renderer::voxels() const { return m_impl->voxels.voxels(); }
 Status Renderer::load(const scene::World& world) { return m_impl->load(world); }
 
 Status Renderer::Impl::load(const scene::World& world) {
@@ -194,9 +196,12 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     const graph::BufferId items = graph.upload("draw items", impl.draws.items.data(), impl.draws.items.size() * sizeof(shared::DrawItem));
     const GBuffer g = impl.gbuffer.add(graph, size, frame, items, impl.draws, posed, impl.materials);
 
-    const ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
+    ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
     ao::Inputs prepared;
-    graph::ImageId visibility = impl.library.add(graph, aoFrame, {g.depth, g.geometric, g.motion}, options.falloff, *options.method, &prepared);
+    ao::Sources sources{g.depth, g.geometric, g.motion};
+    if (options.method->info().needs & ao::kVolume)
+        sources.volume = impl.voxels.add(graph, world, options.time, options.camera, options.voxels, !options.skipMasked, aoFrame.volume);
+    graph::ImageId visibility = impl.library.add(graph, aoFrame, sources, options.falloff, *options.method, &prepared);
     if (!visibility) visibility = impl.allOpen(graph, options.visible);
     shared::View view{};
     const char* reason = nullptr;

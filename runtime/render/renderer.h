@@ -8,6 +8,7 @@
 
 #include "ao/library.h"
 #include "graph/graph.h"
+#include "render/voxel_volume.h"
 #include "scene/camera.h"
 #include "scene/world.h"
 
@@ -38,6 +39,7 @@ struct FrameOptions {
     ao::Falloff falloff;
     View view = View::final;
     std::string passView;             // for View::pass
+    Voxelization voxels;              // for methods that need a volume
     Sun sun;
     float exposure = 1.0f;
     bool cut = false;                 // first frame after a jump: histories and motion are void
@@ -77,6 +79,7 @@ public:
 
     ao::Library& library();
     SceneFacts facts() const;  // of the last add()
+    const voxel::Voxels* voxels() const;  // null until a method has needed a volume
 
 private:
     Renderer();

@@ -1,5 +1,6 @@
-// Cells and the bricks that hold them. The world is cut into cubes of one size, cell c covering [c, c + 1) x cellSize metres
-// on each axis; a set cell holds some surface. Eight cells a side are a brick: 64 bytes, bit for bit an OpenVDB mask leaf and
+// Cells and the bricks that hold them. The world is cut into cubes of one size; cell c's centre is at c x cellSize metres on each
+// axis, as OpenVDB has it, so that a floor at height 0 runs through the middle of cells and not between two layers of them. A set
+// cell holds some surface. Eight cells a side are a brick: 64 bytes, bit for bit an OpenVDB mask leaf and
 // bit for bit what the GPU reads.
 #pragma once
 

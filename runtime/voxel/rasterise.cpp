@@ -76,7 +76,7 @@ inline Edge edge(const glm::dvec3* p, int i, int s, int t) {
     return e;
 }
 
-// `p` in cells. Columns stand along w, the normal's largest axis, so that the plane stays within a few cells of each. A triangle
+// `p` in cells, counted from cell 0's lowest corner. Columns stand along w, the normal's largest axis, so that the plane stays within a few cells of each. A triangle
 // too thin for its normal to mean anything is left to the edges, with rows along its longest side.
 void draw(const glm::dvec3* p, Pen& pen) {
     glm::ivec3 low, high;
@@ -152,7 +152,7 @@ RasterReport drawRange(const Triangles& triangles, double inverse, size_t begin,
             ++report.notFinite;
             continue;
         }
-        const glm::dvec3 p[3] = {glm::dvec3(a) * inverse, glm::dvec3(b) * inverse, glm::dvec3(c) * inverse};
+        const glm::dvec3 p[3] = {glm::dvec3(a) * inverse + 0.5, glm::dvec3(b) * inverse + 0.5, glm::dvec3(c) * inverse + 0.5};
         const glm::dvec3 most = glm::max(glm::max(glm::abs(p[0]), glm::abs(p[1])), glm::abs(p[2]));
         if (std::max({most.x, most.y, most.z}) >= kMost) {
             ++report.tooFar;

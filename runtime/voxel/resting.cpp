@@ -14,9 +14,9 @@ namespace obscura::voxel {
 namespace {
 
 // Raised whenever the same triangles would give other bits.
-constexpr uint32_t kVersion = 1;
-// A cell no larger than a thirteenth of the usual reach of two metres: coarser ones darken what is open [offscreen.md, 5.4].
-constexpr double kLargestCell = 0.15, kSmallestCell = 1e-4;
+constexpr uint32_t kVersion = 2;
+// A cell no larger than a fourteenth of the usual reach of two metres: coarser ones darken what is open.
+constexpr double kLargestCell = 0.14, kSmallestCell = 1e-4;
 // What arrives later with fewer resting triangles than this is carried along as an object.
 constexpr size_t kWorthBuilding = 4096;
 

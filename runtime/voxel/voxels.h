@@ -11,7 +11,7 @@ namespace obscura::voxel {
 
 struct Options {
     uint32_t cells = 256;            // a side of the window: 64, 128, 256 or 512
-    double cellSize = 0.0;           // metres; 0: the world's longest side fills the window, at most 0.15 m
+    double cellSize = 0.0;           // metres; 0: the world's longest side fills the window, at most 0.14 m
     bool masked = true;              // alpha-masked triangles are occluders, as if they had no holes
     std::filesystem::path cache;     // folder of the resting world's .vdb file; empty: nothing is kept
     size_t mostBricks = RasterOptions().mostBricks;

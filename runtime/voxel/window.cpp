@@ -65,7 +65,7 @@ glm::ivec3 windowOrigin(uint32_t cells, double cellSize, const glm::vec3& worldM
     const int side = int(cells / kBrickSide);
     const auto brickAt = [&](float metres) {
         const double most = double(kMostCell / kBrickSide - side - 1);
-        return int(std::clamp(std::floor(double(metres) / (kBrickSide * cellSize)), -most, most));
+        return int(std::clamp(std::floor((double(metres) / cellSize + 0.5) / kBrickSide), -most, most));
     };
     glm::ivec3 origin;
     for (int k = 0; k < 3; ++k) {

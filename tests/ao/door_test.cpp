@@ -15,6 +15,7 @@ protected:
     gpu::Device& m_device = test::device();
     test::Room m_room;
     gpu::Image m_depth, m_normals;
+    gpu::Buffer m_bits;
     Context* m_context = nullptr;
 
     void SetUp() override {
@@ -24,6 +25,9 @@ protected:
         m_room.build();
         m_depth = m_room.image(m_device, false);
         m_normals = m_room.image(m_device, true);
+        const auto bits = std::as_bytes(std::span(m_room.bits));
+        ASSERT_EQ(gpu::Buffer::create(m_device, bits.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "bits", m_bits), gpu::Status::ok);
+        ASSERT_EQ(gpu::upload(m_device, m_bits, bits), gpu::Status::ok);
         ASSERT_EQ(create(desc(), &m_context), Status::ok);
     }
     void TearDown() override {
@@ -31,6 +35,7 @@ protected:
         destroy(m_context);
         m_depth = {};
         m_normals = {};
+        m_bits = {};
         test::GpuTest::TearDown();
     }
     DeviceDesc desc() const {
@@ -47,6 +52,7 @@ protected:
         Frame f = m_room.frame();
         f.depth = {m_depth.handle(), m_depth.view(), VK_FORMAT_R32_SFLOAT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         f.normals = {m_normals.handle(), m_normals.view(), VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        f.volume.buffer = m_bits.handle();
         return f;
     }
     Output once(const Frame& f) {
@@ -180,6 +186,14 @@ TEST_F(DoorTest, mistakesAreAStatusAndALineThatNamesTheField) {
     f.guard = {80, 80};
     EXPECT_EQ(once(f).status, Status::invalid);
     EXPECT_TRUE(said("Frame::guard"));
+    f = frame();
+    f.volume.cells = 100;
+    EXPECT_EQ(once(f).status, Status::invalid);
+    EXPECT_TRUE(said("Frame::volume.cells"));
+    f = frame();
+    f.volume.cellFromEye[5] = std::nanf("");
+    EXPECT_EQ(once(f).status, Status::invalid);
+    EXPECT_TRUE(said("Frame::volume.cellFromEye"));
     f = frame();
     std::fill(std::begin(f.projection), std::end(f.projection), 0.0f);
     EXPECT_EQ(once(f).status, Status::invalid);

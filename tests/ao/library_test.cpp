@@ -37,6 +37,7 @@ protected:
         Sources sources;
         sources.depth = import("depth", depth);
         if (withNormals) sources.normals = import("normals", normals);
+        sources.volume = m_graph.upload("bits", room.bits.data(), room.bits.size() * sizeof(uint32_t));
         gpu::Image motion;
         if (withMotion) {
             EXPECT_EQ(gpu::Image::create(m_device, {VK_FORMAT_R32G32_SFLOAT, room.width, room.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},

@@ -57,6 +57,7 @@ protected:
         ao::Sources sources;
         sources.depth = import("depth", depth);
         sources.normals = import("normals", normals);
+        if (!room.bits.empty()) sources.volume = m_graph->upload("bits", room.bits.data(), room.bits.size() * sizeof(uint32_t));
         const graph::ImageId visibility = m_library->add(*m_graph, frame, sources, rho, values);
         EXPECT_TRUE(bool(visibility));
         if (!visibility) return {};

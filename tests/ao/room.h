@@ -1,6 +1,8 @@
-// Analytic depth and normals for tests: a floor and, optionally, a wall, seen from 1.6 m above the floor.
+// Analytic depth, normals and voxels for tests: a floor and, optionally, a wall, seen from 1.6 m above the floor.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -18,8 +20,11 @@ struct Room {
     std::vector<float> depth;      // linear, 1e4 where nothing is
     std::vector<float> normals;    // xyz0
     float projection[16] = {};
+    ao::Volume volume;             // around the camera, its buffer left out
+    std::vector<uint32_t> bits;    // of the volume: every cell that the floor's or the wall's plane touches
 
     void build() {
+        voxelize(128, 0.12f);
         const float f = 1.0f / std::tan(0.5236f);
         const float fy = f * float(height - 2 * guard) / float(height), fx = fy * float(height) / float(width);
         const float p[16] = {fx, 0, 0, 0, 0, -fy, 0, 0, 0, 0, 0, -1, 0, 0, 0.1f, 0};
@@ -40,6 +45,32 @@ struct Room {
             }
         }
     }
+    // The window's middle is the eye; `tilt` turns its axes about x, radians. Cells before `origin` do not change the world they hold.
+    void voxelize(uint32_t cells, float cellSize, float tilt = 0.0f, std::array<int, 3> origin = {}) {
+        const float c = std::cos(tilt), s = std::sin(tilt), half = 0.5f * float(cells), scale = 1.0f / cellSize;
+        volume = {};
+        volume.cells = cells;
+        const float columns[16] = {scale, 0, 0, 0, 0, c * scale, s * scale, 0, 0, -s * scale, c * scale, 0, half, half, half, 1};
+        std::copy(std::begin(columns), std::end(columns), volume.cellFromEye);
+        std::copy(origin.begin(), origin.end(), volume.origin);
+        bits.assign(size_t(cells) * cells * cells / 32, 0);
+        // The plane n . cell = d, in cells, touches those within half of |n.x| + |n.y| + |n.z| of their middle.
+        const auto touches = [&](float ny, float nz, float d, float y, float z) {
+            return std::abs(ny * (y + 0.5f - half) + nz * (z + 0.5f - half) - d) <= 0.5f * (std::abs(ny) + std::abs(nz)) + 1e-4f;
+        };
+        for (uint32_t y = 0; y < cells; ++y)
+            for (uint32_t z = 0; z < cells; ++z) {
+                if (!touches(c, s, floor * scale, float(y), float(z)) && !(wall < 0.0f && touches(-s, c, wall * scale, float(y), float(z)))) continue;
+                for (uint32_t x = 0; x < cells; ++x) set(x, y, z);
+            }
+    }
+    void set(uint32_t x, uint32_t y, uint32_t z) {
+        const uint32_t mask = volume.cells - 1, side = volume.cells / 8;
+        x = (x + uint32_t(volume.origin[0])) & mask;
+        y = (y + uint32_t(volume.origin[1])) & mask;
+        z = (z + uint32_t(volume.origin[2])) & mask;
+        bits[(((x / 8) * side + y / 8) * side + z / 8) * 16 + (x & 7) * 2 + ((y & 7) >> 2)] |= 1u << ((y & 3) * 8 + (z & 7));
+    }
     uint32_t visibleWidth() const { return width - 2 * guard; }
     uint32_t visibleHeight() const { return height - 2 * guard; }
 
@@ -50,6 +81,7 @@ struct Room {
         std::memcpy(result.projection, projection, sizeof(projection));
         result.depthKind = ao::DepthKind::linear;
         result.skyDepth = 9000.0f;
+        result.volume = volume;
         return result;
     }
 

@@ -36,7 +36,7 @@ void expectExact(const Soup& soup, double cellSize) {
         glm::dvec3 p[3];
         glm::dvec3 low(1e9), high(-1e9);
         for (int i = 0; i < 3; ++i) {
-            p[i] = glm::dvec3(one.positions[size_t(i)]) * (1.0 / cellSize);
+            p[i] = glm::dvec3(one.positions[size_t(i)]) * (1.0 / cellSize) + 0.5;
             low = glm::min(low, p[i]);
             high = glm::max(high, p[i]);
         }
@@ -80,10 +80,10 @@ TEST(Rasterise, triangleOfAnyDirectionFillsWhatItTouches) {
 
 TEST(Rasterise, cellsBothSidesOfATouchedBoundary) {
     Soup soup;
-    soup.add({0.25f, 0.0f, 0.25f}, {0.75f, 0.0f, 0.25f}, {0.25f, 0.0f, 0.75f});
+    soup.add({-0.25f, 0.5f, -0.25f}, {0.25f, 0.5f, -0.25f}, {-0.25f, 0.5f, 0.25f});
     voxel::BrickSet bricks;
     voxel::rasterise(soup.triangles(), 1.0, bricks);
-    EXPECT_EQ(cellsOf(bricks), (Cells{{0, -1, 0}, {0, 0, 0}}));
+    EXPECT_EQ(cellsOf(bricks), (Cells{{0, 0, 0}, {0, 1, 0}}));
 }
 
 TEST(Rasterise, manyThreadsMakeTheSameCells) {

@@ -9,6 +9,7 @@
 #include "app/arguments.h"
 #include "app/complaint.h"
 #include "content.h"
+#include "scene/hash.h"
 
 namespace obscura::evaluate {
 
@@ -124,6 +125,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     auto* masked = cli.add_flag("--skip-masked", options.skipMasked,
                                 "Leave alpha-masked surfaces out of frame and reference, as stored references do");
 
+    cli.add_option("--voxels", options.voxels.cells, "Cells a side of the voxel window, for methods that trace voxels")
+        ->check(CLI::IsMember({64u, 128u, 256u, 512u}))->capture_default_str();
+    cli.add_option("--voxel-size", options.voxels.cellSize, "Metres a cell; 0: the scene's longest side fills the window, at most 0.14")
+        ->check(CLI::Range(0.0f, 1000.0f))->capture_default_str();
+
     cli.option_defaults()->group("What is judged");
     auto* methodOption = takeAll(cli.add_option("--method", methods, "Methods by id, or all")->capture_default_str());
     auto* presetOption = takeAll(cli.add_option("--preset", presets, "Presets of them, or all")->capture_default_str());
@@ -221,6 +227,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*timeOption) options.time = time;
     if (!size.empty()) options.size = app::sizeOf(size);
     options.rays.cache = !noCache;
+    if (!noCache) options.voxels.cache = scene::cacheFolder();
     expectTogether(options, *scene || *timeOption || *sizeOption || *guard || *masked);
     return options;
 }

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "candidate.h"
+#include "render/voxel_volume.h"
 
 namespace obscura::evaluate {
 
@@ -50,6 +51,7 @@ struct Options {
     glm::uvec2 size{640, 360};
     float guard = 0.1f;
     bool skipMasked = false;
+    render::Voxelization voxels;
     // What is judged, and against what.
     std::vector<Candidate> candidates;
     std::vector<FalloffChoice> falloffs;

@@ -81,6 +81,7 @@ render::FrameOptions frameOptions(const Options& options, const scene::Camera& c
     frame.time = time;
     frame.view = render::View::visibility;  // nothing needs light
     frame.skipMasked = options.skipMasked;
+    frame.voxels = options.voxels;
     return frame;
 }
 

@@ -121,6 +121,19 @@ enum class DepthKind : uint8_t { device, linear };          // linear: -z in met
 enum class NormalKind : uint8_t { eye, world };
 enum class NormalEncoding : uint8_t { signedFloat, unsignedHalf, octahedral32 };  // xyz; xyz*0.5+0.5; uint, two snorm16
 
+// A cube of the world as bits, 1 where there is surface, for the methods that need kVolume. World-anchored: cell (x, y, z) counts
+// from a fixed point, and the buffer holds the cells from `origin` on, each at its place modulo the side, so that moving the cube
+// rewrites only what entered. A brick is 8 cells a side, 16 words: cell -> bit 8 (y & 3) + (z & 7) of word
+// 2 (x & 7) + ((y & 7) >> 2); brick (X, Y, Z) = (x, y, z) / 8 modulo s -> words 16 ((X s + Y) s + Z) on, s = cells / 8.
+// Conservative bits are expected: every cell that a triangle touches.
+struct Volume {
+    VkBuffer buffer = VK_NULL_HANDLE;    // storage usage, cells^3 / 8 bytes from `offset` on; null: no volume
+    uint64_t offset = 0;                 // bytes, a multiple of minStorageBufferOffsetAlignment
+    uint32_t cells = 0;                  // a side: a power of two, 8 to 1024
+    int32_t origin[3] = {};              // lowest cell held; a cube that stays put may leave it 0
+    float cellFromEye[16] = {};          // eye space -> cells from the lowest corner, columns; turns, moves and scales evenly
+};
+
 struct Frame {
     VkExtent2D size{};                   // of depth and normals, guard band included
     VkExtent2D guard{};                  // px on each side that are read but not shown; visible = size - 2 guard
@@ -135,6 +148,7 @@ struct Frame {
     float motionScale[2] = {1, 1};       // motion times this: px from here to last frame's position, y down. Motion in UV:
                                          // {width, height}; in NDC with y up: {width/2, -height/2}; from the past: negated
     bool cut = false;                    // first frame after a jump: last frame's picture is no past of this one
+    Volume volume;                       // optional
     float skyDepth = 0.0f;               // linear depths from here on are sky; 0: what the projection's far plane says
     uint64_t index = 0;                  // counts frames
 };

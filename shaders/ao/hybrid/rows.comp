@@ -1,0 +1,52 @@
+// Hybrid obscurance, second pass: joint bilateral upsampling along the rows, from the map to every pixel of every `scale`th row.
+// In: the map and its receivers, linear depth, packed normals. Out: visibility, full width, the map's height.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "bilateral.glsl"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
+layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D receivers;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D result;
+layout(push_constant) uniform Constants {
+    int scale;         // pixels a map's pixel
+    float window;      // m, px
+    float range;       // metres beyond which positions share nothing
+};
+
+void main() {
+    View view = viewBlock;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, imageSize(result)))) return;
+    int every = scale;
+    ivec2 own = min(p * ivec2(1, every), ivec2(view.visible) - 1) + ivec2(view.guard);
+    float z = imageLoad(depth, own).x;
+    if (isSky(view, z)) {
+        imageStore(result, p, vec4(1.0));
+        return;
+    }
+    vec3 here = eyePosition(view, vec2(own) + 0.5, z);
+    vec3 n = unpackNormal(imageLoad(normals, own).x);
+    float inverseWindow = 1.0 / window, inverseRange = 1.0 / range, middle = 0.5 * float(every);
+
+    int count = imageSize(source).x, reach = int(0.5 * window);
+    float nearest = imageLoad(source, ivec2(min(p.x / every, count - 1), p.y)).x;
+    int from = max((p.x - reach) / every, 0), to = min((p.x + reach) / every, count - 1);
+    float sum = 0.0, weight = 0.0;
+    for (int j = from; j <= to; ++j) {
+        float value = imageLoad(source, ivec2(j, p.y)).x;
+        uvec2 receiver = imageLoad(receivers, ivec2(j, p.y)).xy;
+        float zq = uintBitsToFloat(receiver.x);
+        vec2 at = vec2(ivec2(j, p.y) * every + ivec2(view.guard)) + middle;
+        vec3 d = eyePosition(view, at, zq) - here;
+        float w = bilateral(abs(at.x - float(own.x) - 0.5) * inverseWindow, dot(n, unpackNormal(receiver.y)), length(d) * inverseRange, value - nearest);
+        w = isSky(view, zq) ? 0.0 : w;
+        sum += w * value;
+        weight += w;
+    }
+    imageStore(result, p, vec4(weight > 0.0 ? sum / weight : nearest));
+}

@@ -1,0 +1,121 @@
+// Hybrid obscurance, first pass [Reinbothe 2009, eq. 4]: a cone of rays through the bits of the volume, one invocation a pixel of
+// the map. In: volume, linear depth, packed normals. Out: visibility of the map's receivers, and what they are. Formulas in
+// runtime/ao/methods/hybrid.cpp.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/falloff.h"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+#include "shared/volume.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, std140) uniform VolumeBlock { Volume volumeBlock; };
+layout(set = 0, binding = 2, std430) readonly buffer Bits { uint bits[]; };
+layout(set = 0, binding = 3, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D map;
+layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D receivers;  // linear depth as bits, packed normal
+layout(push_constant) uniform Constants {
+    FalloffBlock falloffBlock;
+    uint rays;
+    uint steps;
+    uint scale;      // pixels a map's pixel, each way
+    float cone;      // cosine of the half angle that rays keep to
+    float offset;    // of their origin along the normal, cells
+    float jitter;    // 1: steps are shifted for each ray; 0: half a step
+    float grain;     // cells of the noise a metre
+};
+
+const float kTwoPi = 6.28318531;
+
+// Three numbers in [0,1) from a lattice cell [Jarzynski and Olano 2020, pcg3d].
+vec3 noise(ivec3 cell) {
+    uvec3 v = uvec3(cell) * 1664525u + 1013904223u;
+    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+    return vec3(v >> 8) / 16777216.0;
+}
+
+void main() {
+    View view = viewBlock;
+    Volume volume = volumeBlock;
+    FalloffBlock rho = falloffBlock;
+    uint rayCount = rays, stepCount = steps;
+    float coneCosine = cone, offsetCells = offset, jitterOfSteps = jitter;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, imageSize(map)))) return;
+    // Of the pixels that this one stands for, the one that faces most as all of them do: a ledge a pixel wide is not sampled by
+    // chance, here and there.
+    int every = int(scale);
+    ivec2 corner = p * every + ivec2(view.guard), last = ivec2(view.visible) - 1 + ivec2(view.guard);
+    vec3 together = vec3(0.0);
+    for (int i = 0; i < every * every; ++i) {
+        ivec2 q = min(corner + ivec2(i % every, i / every), last);
+        together += isSky(view, imageLoad(depth, q).x) ? vec3(0.0) : unpackNormal(imageLoad(normals, q).x);
+    }
+    float best = -1e9;
+    ivec2 texel = corner;
+    for (int i = 0; i < every * every; ++i) {
+        ivec2 q = min(corner + ivec2(i % every, i / every), last);
+        float agrees = isSky(view, imageLoad(depth, q).x) ? -1e8 : dot(together, unpackNormal(imageLoad(normals, q).x));
+        texel = agrees > best + 1e-4 ? q : texel;
+        best = max(best, agrees);
+    }
+    float z = imageLoad(depth, texel).x;
+    uint packed = imageLoad(normals, texel).x;
+    imageStore(receivers, p, uvec4(floatBitsToUint(z), packed, 0, 0));
+    if (isSky(view, z)) {
+        imageStore(map, p, vec4(1.0));
+        return;
+    }
+    vec3 here = eyePosition(view, vec2(texel) + 0.5, z);
+    vec3 n = unpackNormal(packed);
+    if (dot(n, towardsEye(view, here)) < 0.0) n = -n;
+
+    // From here on in cells: a step is one vector, and turning into the world is done once.
+    float metres = volume.anchor.w;
+    vec3 normal = cellsAlong(volume, n) * metres;
+    vec3 receiver = cellOf(volume, here);
+    vec3 origin = receiver + offsetCells * normal;
+    // Noise of the place, not of the pixel: it rests on the surface while the camera moves.
+    vec3 xi = fract(noise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
+    // [Duff 2017, Building an Orthonormal Basis, Revisited]
+    float s = normal.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + normal.z), b = normal.x * normal.y * a;
+    vec3 tangent = vec3(1.0 + s * normal.x * normal.x * a, s * b, -s * normal.x);
+    vec3 bitangent = vec3(b, s + normal.y * normal.y * a, -normal.y);
+
+    float step = rho.reach / float(stepCount), cellsPerStep = step / metres;
+    float lift = offsetCells * metres;
+    // The azimuth turns by the golden angle from ray to ray.
+    vec2 turned = vec2(cos(kTwoPi * xi.y), sin(kTwoPi * xi.y));
+    const vec2 golden = vec2(-0.737368878, -0.675490294);
+    // An origin that lies in a set cell is beside another surface: which half of its rays that blocks, bits do not say, so each
+    // counts half, and then goes on from where the cell ends.
+    uvec3 start = uvec3(ivec3(origin));
+    bool buried = (bits[wordOf(volume, start)] >> bitOf(volume, start) & 1u) != 0u && insideVolume(volume, origin);
+    float nearest = buried ? 1.0 / cellsPerStep : 0.0, half0 = buried ? 0.5 : 0.0;
+    float blocked = 0.0, total = 0.0, shift = xi.z;
+    for (uint i = 0u; i < rayCount; ++i) {
+        float c = mix(coneCosine, 1.0, (float(i) + xi.x) / float(rayCount));
+        float sine = sqrt(max(1.0 - c * c, 0.0));
+        vec3 stride = (tangent * (turned.x * sine) + bitangent * (turned.y * sine) + normal * c) * cellsPerStep;
+        float first = mix(0.5, shift, jitterOfSteps);
+        // Back to front: the last hit is the nearest.
+        float hit = -1.0;
+        for (uint k = stepCount; k > 0u; --k) {
+            float t = float(k - 1u) + first;
+            vec3 at = origin + stride * t;
+            uvec3 cell = uvec3(ivec3(at));
+            bool set = (bits[wordOf(volume, cell)] >> bitOf(volume, cell) & 1u) != 0u;
+            hit = set && t >= nearest && insideVolume(volume, at) ? t : hit;
+        }
+        // From the receiver, not from the lifted origin: as far as to a surface that faces the ray.
+        float far = hit >= 0.0 ? falloff(rho, hit * step + lift * c) : 0.0;
+        blocked += c * mix(far, falloff(rho, lift * c), half0);
+        total += c;
+        turned = vec2(turned.x * golden.x - turned.y * golden.y, turned.x * golden.y + turned.y * golden.x);
+        shift = fract(shift + 0.754877666);
+    }
+    imageStore(map, p, vec4(clamp(1.0 - blocked / total, 0.0, 1.0)));
+}

@@ -1,0 +1,38 @@
+// Occupied cells of the world around the camera: a cube of bits, dense, world-anchored. Eight cells a side are a brick of 16
+// words: bit 8 (y & 3) + (z & 7) of word 2 (x & 7) + ((y & 7) >> 2). Bricks stand in the order ((x >> 3) s + (y >> 3)) s + (z >> 3),
+// s bricks a side, at their place modulo the side: a window that moves leaves what stays where it is.
+#ifndef OBSCURA_SHARED_VOLUME_H
+#define OBSCURA_SHARED_VOLUME_H
+#include "types.h"
+OBSCURA_SHARED_BEGIN
+
+struct Volume {
+    vec4 rows[3];  // (eye-space point, 1) -> cells from the window's lowest corner
+    uvec4 shift;   // xyz: the lowest cell modulo the side; w: cells a side, a power of two
+    vec4 anchor;   // xyz: the lowest corner, metres of the world, for noise that stays where it is; w: metres a cell
+};
+OBSCURA_SHARED_SIZE(Volume, 80);
+
+OBSCURA_SHARED_END
+
+#ifndef __cplusplus
+vec3 cellOf(Volume v, vec3 eye) { return vec3(dot(v.rows[0], vec4(eye, 1)), dot(v.rows[1], vec4(eye, 1)), dot(v.rows[2], vec4(eye, 1))); }
+// Cells a metre along an eye-space direction.
+vec3 cellsAlong(Volume v, vec3 d) { return vec3(dot(v.rows[0].xyz, d), dot(v.rows[1].xyz, d), dot(v.rows[2].xyz, d)); }
+// The word and the bit in it of a cell. Any cell has one: ask insideVolume() first.
+uint wordOf(Volume v, uvec3 cell) {
+    uvec3 p = (cell + v.shift.xyz) & (v.shift.w - 1u);
+    uvec3 brick = p >> 3;
+    uint side = v.shift.w >> 3;
+    return ((((brick.x * side + brick.y) * side + brick.z) << 4) | ((p.x & 7u) << 1) | ((p.y >> 2) & 1u));
+}
+uint bitOf(Volume v, uvec3 cell) {
+    uvec2 p = cell.yz + v.shift.yz;
+    return ((p.x & 3u) << 3) | (p.y & 7u);
+}
+bool insideVolume(Volume v, vec3 cell) {
+    return min(min(cell.x, cell.y), cell.z) >= 0.0 && max(max(cell.x, cell.y), cell.z) < float(v.shift.w);
+}
+#endif
+
+#endif

@@ -1,0 +1,40 @@
+// The stored analytic scenes from end to end: triangles to voxels to picture, against references that were ray-traced through the
+// same geometry. Skipped where the folder is missing.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void expectError(const std::string& scene, double most) {
+    const char* named = std::getenv("OBSCURA_ORACLE");
+    const fs::path folder = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
+    if (!fs::exists(folder / (scene + ".glb"))) GTEST_SKIP() << "no " << folder / (scene + ".glb") << "; set OBSCURA_ORACLE to the stored references";
+    const fs::path result = fs::path(testing::TempDir()) / ("obscura-hybrid-" + scene + ".json");
+    const std::string command = std::string(OBSCURA_EVALUATE) + " --scene " + (folder / (scene + ".glb")).string() + " --camera scene:0 --size 320x180 --method hybrid" +
+                                " --falloff wendland:2 --reference " + (folder / (scene + ".reference.exr")).string() +
+                                " --channel world.wendland_2 --frames 1 --warm-up 1 --json " + result.string() + " > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const nlohmann::json report = nlohmann::json::parse(std::ifstream(result));
+    fs::remove(result);
+    double eA = -1.0;
+    const auto find = [&](const auto& self, const nlohmann::json& at) -> void {
+        if (at.is_object() && at.contains("eA") && eA < 0.0) eA = at["eA"];
+        if (at.is_structured())
+            for (const auto& below : at) self(self, below);
+    };
+    find(find, report);
+    ASSERT_GT(eA, 0.0) << report.dump();
+    printf("hybrid %s wendland:2 world: eA %.4f\n", scene.c_str(), eA);
+    EXPECT_LE(eA, most);
+}
+
+TEST(HybridOracle, corner) { expectError("corner", 0.015); }
+TEST(HybridOracle, atrium) { expectError("atrium", 0.029); }
+
+}  // namespace
