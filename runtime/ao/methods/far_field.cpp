@@ -23,7 +23,7 @@
 namespace obscura::ao {
 namespace {
 
-const char* const kAveragings[] = {"none", "prefix sums", "pyramid"};
+const char* const kAveragings[] = {"none", "prefix sums", "pyramid", "direct"};
 enum Estimator : uint32_t { kSlab, kConnected, kBlended };
 const char* const kEstimators[] = {"slab", "connected", "blended"};
 const char* const kParts[] = {"both", "near", "far"};
@@ -37,22 +37,26 @@ const Parameter kParameters[] = {
     {"lines", "", 0, 2, 0, true, {kSparsities, 3}, "Which of the lines, a pixel apart, are scanned."},
     {"slope", "", -2, 2, 1, false, {}, "Slope of the second angle at which intervals are seen, s; the paper's is -1, from above. 0 counts as 1."},
     {"estimator", "", 0, 2, 2, true, {kEstimators, 3}, "What stands below a point: a slab away from the camera as in the paper, the connection to the point before it, or between both."},
-    {"averaging", "", 0, 2, 2, true, {kAveragings, 3}, "How points are averaged over a sector's width: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth."},
+    {"averaging", "", 0, 3, 2, true, {kAveragings, 4}, "How points are averaged over a sector's width: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth; direct: single texels of the depth buffer, without scans."},
     {"near", "", 0, 16, 3, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
     {"parts", "", 0, 2, 0, true, {kParts, 3}, "What is shown: both fields, the near one alone, or the far one alone above the near one's horizon."},
     {"interleave", "", 0, 1, 0, true, {kInterleaves, 2}, "3x3: a pixel does one sector in nine and gathers those of its neighbours; directions 9, 18 or 27."},
+    {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
+    {"jitter", "", 0, 1, 0, false, {}, "How much of its segment a pixel's directions are turned by, at random: noise instead of bands. Not interleaved."},
     {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
 };
 const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
 const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"interval", 5}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
 const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", 1}};
 const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"interleave", 1}};
+const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"averaging", 0}, {"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
     {"default", "8 directions x 4 segments, blended estimator, lateral pyramid.", {}},
     {"paper_8x2", "The paper's smaller setting.", {kPaper8, std::size(kPaper8)}},
     {"paper_16x2", "The paper's larger setting.", {kPaper16, std::size(kPaper16)}},
     {"paper_saao", "The paper's interleaved setting: 18 directions x 2 segments, blurred.", {kPaperSaao, std::size(kPaperSaao)}},
     {"fast", "Interleaved over 3x3 pixels: a ninth of the far field a pixel.", {kFast, std::size(kFast)}},
+    {"thin", "Surfaces 10 cm thick, 16 single lines, jittered.", {kThin, std::size(kThin)}},
 };
 const MethodInfo kInfo{"far_field",
                        "Far-field ambient obscurance",
@@ -67,9 +71,11 @@ public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<FarField>();
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
-        for (uint32_t i = 0; i < 3; ++i) {
+        for (uint32_t i = 0; i < 4; ++i) {
+            const bool thin = i == uint32_t(Averaging::none) || i == uint32_t(Averaging::direct);
             if (gpu::Program::compute(device, shaders, "ao/far_field/scan.comp", {{0, i}}, result->m_scan[i]) != gpu::Status::ok) return nullptr;
-            if (gpu::Program::compute(device, shaders, "ao/far_field/obscurance.comp", {{0, i}}, result->m_obscurance[i]) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, "ao/far_field/obscurance.comp", {{0, i}, {1, 0}}, result->m_obscurance[i]) != gpu::Status::ok) return nullptr;
+            if (thin && gpu::Program::compute(device, shaders, "ao/far_field/obscurance.comp", {{0, i}, {1, 1}}, result->m_thin[i]) != gpu::Status::ok) return nullptr;
             if (gpu::Program::compute(device, shaders, "ao/far_field/interleaved.comp", {{0, i}}, result->m_interleaved[i]) != gpu::Status::ok) return nullptr;
         }
         const struct { const char* name; gpu::Program* program; } programs[] = {
@@ -81,7 +87,9 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
-        const auto averaging = Averaging(values.count("averaging"));
+        const float thickness = values["thickness"];
+        auto averaging = Averaging(values.count("averaging"));
+        if (thickness > 0.0f && averaging != Averaging::direct) averaging = Averaging::none;
         const uint32_t directions = values.count("directions"), lineStep = 1u << values.count("lines");
         const FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging);
         const float slope = values["slope"];
@@ -98,11 +106,13 @@ public:
         constants.taps = values.count("near");
         constants.parts = values.count("parts") ? values.count("parts") : shared::kNearPart | shared::kFarPart;
         constants.paired = directions % 2 == 0;
+        constants.thickness = thickness;
+        constants.jitter = values["jitter"];
 
         const graph::BufferId grids = graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
-        const graph::BufferId cells = graph.buffer("far_field.cells", grid.bytes);
+        const graph::BufferId cells = averaging == Averaging::direct ? grids : graph.buffer("far_field.cells", grid.bytes);  // something to bind
         const uint32_t run = averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1);
-        graph.pass("far_field.scan", m_scan[uint32_t(averaging)]).read(inputs.viewBlock).read(inputs.depth).read(grids).write(cells)
+        if (averaging != Averaging::direct) graph.pass("far_field.scan", m_scan[uint32_t(averaging)]).read(inputs.viewBlock).read(inputs.depth).read(grids).write(cells)
             .constants(constants).dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
         if (averaging == Averaging::prefixSums)
             graph.pass("far_field.prefix sums", m_prefix).read(grids).write(cells).constants(constants).dispatch(grid.intervals, grid.levels, directions);
@@ -113,7 +123,7 @@ public:
                 .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
         }
         const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
-        return values.count("interleave") ? interleaved(graph, inputs, scanned, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
+        return values.count("interleave") && thickness <= 0.0f ? interleaved(graph, inputs, scanned, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
     }
 
 private:
@@ -127,7 +137,8 @@ private:
     graph::ImageId obscurance(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const char* name) {
         const auto& visible = inputs.view.visible;
         const graph::ImageId result = graph.image(name, {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass(name, m_obscurance[uint32_t(scanned.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(scanned.grids)
+        auto& programs = scanned.constants.thickness > 0.0f ? m_thin : m_obscurance;
+        graph.pass(name, programs[uint32_t(scanned.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(scanned.grids)
             .read(scanned.cells).read(scanned.table).write(result).constants(scanned.constants).dispatch(visible.x, visible.y);
         return result;
     }
@@ -155,9 +166,7 @@ private:
     }
 
     FalloffTable m_table;
-    gpu::Program m_scan[3];  // by averaging
-    gpu::Program m_obscurance[3];
-    gpu::Program m_interleaved[3];
+    gpu::Program m_scan[4], m_obscurance[4], m_thin[4], m_interleaved[4];  // by averaging
     gpu::Program m_prefix, m_pyramid, m_boxAverage, m_gather, m_blur;
 };
 

@@ -22,7 +22,7 @@ private:
     bool m_made = false;
 };
 
-enum class Averaging : uint32_t { none, prefixSums, pyramid };
+enum class Averaging : uint32_t { none, prefixSums, pyramid, direct };  // direct: points are single texels, no scan
 
 // The grids of K directions over a picture, all levels, one after the other in one buffer.
 struct FarFieldGrid {

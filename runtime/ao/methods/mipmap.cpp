@@ -15,11 +15,15 @@ namespace {
 const Parameter kParameters[] = {
     {"directions", "", 4, 64, 16, true, {}, "Directions on the screen, K; the cost grows with them."},
     {"factor", "", 1.1f, 3, 1.5f, false, {}, "How much each step is longer than the one before it."},
+    {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are; 0 is endless. Thin ones take the nearest depth of each texel instead of the mean, from one level."},
+    {"jitter", "", 0, 1, 0, false, {}, "How much of its sector a pixel's directions are turned by, at random."},
 };
 const Setting kDense[] = {{"directions", 64}, {"factor", 1.2f}};
+const Setting kThin[] = {{"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
     {"default", "The paper's: 16 directions, steps growing by half.", {}},
     {"dense", "64 directions, steps growing by a fifth: how slowly it converges.", {kDense, std::size(kDense)}},
+    {"thin", "Surfaces 10 cm thick: max-mipmaps, jittered.", {kThin, std::size(kThin)}},
 };
 const MethodInfo kInfo{"mipmap",
                        "Mipmapped ambient obscurance",
@@ -35,9 +39,11 @@ public:
         auto result = std::make_unique<Mipmap>();
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         const struct { const char* name; gpu::Program* program; } programs[] = {
-            {"ao/mipmap/base.comp", &result->m_base}, {"ao/mipmap/reduce.comp", &result->m_reduce}, {"ao/mipmap/obscurance.comp", &result->m_obscurance}};
+            {"ao/mipmap/base.comp", &result->m_base}, {"ao/mipmap/reduce.comp", &result->m_reduce}};
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+        for (uint32_t thin = 0; thin < 2; ++thin)
+            if (gpu::Program::compute(device, shaders, "ao/mipmap/obscurance.comp", {{0, thin}}, result->m_obscurance[thin]) != gpu::Status::ok) return nullptr;
         return result;
     }
 
@@ -47,22 +53,23 @@ public:
         while (std::max(view.size.x, view.size.y) >> mips) ++mips;
         const graph::ImageId pyramid = graph.image("mipmap.pyramid", {VK_FORMAT_R32_SFLOAT, view.size.x, view.size.y, 1, mips});
         graph.pass("mipmap.base", m_base).read(inputs.depth).writeMip(pyramid, 0).dispatch(view.size.x, view.size.y);
-        const uint32_t nearest = 0;
+        const uint32_t nearest = values["thickness"] > 0.0f;
         for (uint32_t mip = 1; mip < mips; ++mip)
             graph.pass("mipmap.reduce", m_reduce).readMip(pyramid, mip - 1).writeMip(pyramid, mip).constants(nearest)
                 .dispatch(std::max(view.size.x >> mip, 1u), std::max(view.size.y >> mip, 1u));
 
-        const struct { uint32_t directions; float factor, unit; } constants{values.count("directions"), values["factor"], inputs.falloffDesc.length};
+        const struct { uint32_t directions; float factor, unit, thickness, jitter; } constants{values.count("directions"), values["factor"], inputs.falloffDesc.length,
+                                                                                           values["thickness"], values["jitter"]};
         const graph::ImageId table = m_table.add(graph, inputs, "mipmap.table");
         const graph::ImageId visibility = graph.image("mipmap.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
-        graph.pass("mipmap.obscurance", m_obscurance).read(inputs.viewBlock).read(inputs.normals).read(pyramid, graph::Sampling::linear).read(table)
+        graph.pass("mipmap.obscurance", m_obscurance[nearest]).read(inputs.viewBlock).read(inputs.normals).read(pyramid, graph::Sampling::linear).read(table)
             .write(visibility).constants(constants).dispatch(view.visible.x, view.visible.y);
         return visibility;
     }
 
 private:
     FalloffTable m_table;
-    gpu::Program m_base, m_reduce, m_obscurance;
+    gpu::Program m_base, m_reduce, m_obscurance[2];  // endless, thin
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "ao/far_field/layout.h"
 #include "shared/view.h"
 
-const uint kSingle = 0u, kPrefix = 1u, kPyramid = 2u;  // averaging
+const uint kSingle = 0u, kPrefix = 1u, kPyramid = 2u, kDirect = 3u;  // averaging; direct: points are single texels, no cells at all
 
 const float kNothing = -3.0e38;  // heights of an interval that is sky or outside
 

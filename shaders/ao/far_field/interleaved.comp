@@ -7,6 +7,7 @@
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kAveraging = 2;
+const uint kThin = 0u;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D surfaces;

@@ -29,8 +29,10 @@ struct FarFieldConstants {
     uint taps;           // of the near field, in each segment; 0 leaves it out
     uint parts;          // what counts: kNearPart, kFarPart; the far field is left out, the near field still raises the horizon
     uint paired;         // 1: one walk serves two opposite directions
+    float thickness;     // of surfaces, metres; 0: endless
+    float jitter;        // of directions, parts of a sector
 };
-OBSCURA_SHARED_SIZE(FarFieldConstants, 44);
+OBSCURA_SHARED_SIZE(FarFieldConstants, 52);
 
 OBSCURA_SHARED_END
 #endif

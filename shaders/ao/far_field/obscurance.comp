@@ -7,6 +7,7 @@
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kAveraging = 2;
+layout(constant_id = 1) const uint kThin = 0;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
@@ -29,7 +30,7 @@ void main() {
         return;
     }
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
-    Turn turn = turnOf(c);
+    Turn turn = jittered(turnOf(c), view, texel, c);
     vec2 sum = vec2(0.0);
     for (uint k = 0u; k < c.directions; ++k) sum += sectorOf(r, k, c, turn, view.skyDepth);
     imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));

@@ -1,19 +1,28 @@
 // One segment of a sector: the near field, texel by texel, then intervals of growing length to the picture's edge. Include after declaring
-// `table`, `depth`, `cells` and `directionsOf`.
+// `table`, `depth`, `cells` and `directionsOf`, kAveraging and kThin.
 #ifndef OBSCURA_FAR_FIELD_SECTORS_GLSL
 #define OBSCURA_FAR_FIELD_SECTORS_GLSL
 #include "ao/far_field/estimator.glsl"
 #include "ao/far_field/grid.glsl"
 #include "ao/far_field/receiver.glsl"
+#include "ao/far_field/thin.glsl"
 
 // From a sector's middle to its first segment, from segment to segment, half a segment: cosine and sine.
 struct Turn {
     vec2 first, next, side;
     float slope;  // of a sector's sides, lines per pixel of distance
+    float shift;  // of all lines by jitter, the same
 };
+// All of a pixel's segments turned by one random angle [Timonen 2013, sec. 11.1].
+Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
+    vec2 by = jitterAt(view, texel, kPi / float(c.directions * c.segments), c.jitter);
+    turn.first = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * by;
+    turn.shift = by.y / by.x / c.lineStep;
+    return turn;
+}
 Turn turnOf(FarFieldConstants c) {
-    float sector = kPi / float(c.directions), segment = sector / float(c.segments);
-    return Turn(vec2(cos(segment - sector), sin(segment - sector)), vec2(cos(2.0 * segment), sin(2.0 * segment)), vec2(cos(segment), sin(segment)), tan(sector) / c.lineStep);
+    float sector = kPi / float(c.directions), segment = sector / float(c.segments), slope = tan(sector) / c.lineStep;
+    return Turn(vec2(cos(segment - sector), sin(segment - sector)), vec2(cos(2.0 * segment), sin(2.0 * segment)), vec2(cos(segment), sin(segment)), slope, 0.0);
 }
 
 // Where a receiver stands in a direction's grid.
@@ -30,16 +39,27 @@ Place placeOf(Direction d, Receiver r, FarFieldConstants c) {
     return Place(d, along, line, uint(ceil(along / c.interval)) + 1u, axisOf(viewBlock, d.along));
 }
 
+// What a segment has met so far: a horizon, or bins where surfaces are thin.
+struct Met {
+    Horizon horizon;
+    Bins bins;
+};
+void add(inout Met met, Segment s, FarFieldConstants c, float depth, float r, bool exists) {
+    vec2 fromCamera = pointAt(s, depth, r), point = fromCamera - vec2(0.0, s.origin), slab = vec2(fromCamera.x * s.scale.x, fromCamera.y);
+    if (kThin != 0u) addSlab(met.bins, point, normalize(slab), c.thickness, exists, s.n, c.unit);
+    else addPoint(met.horizon, point, slab, exists, s.n, c.connection, c.unit);
+}
+float blockedOf(Met met) { return kThin != 0u ? met.bins.sum : met.horizon.blocked; }
+
 // `taps` samples over the first `reach` pixels, denser near the receiver.
-void nearField(inout Horizon h, Segment s, Receiver r, FarFieldConstants c, float reach, float skyDepth) {
+void nearField(inout Met met, Segment s, Receiver r, FarFieldConstants c, float reach, float skyDepth) {
     ivec2 last = ivec2(r.size) - 1;
     float part = 1.0 / float(c.taps);
     for (uint i = 0u; i < c.taps; ++i) {
         float t = (float(i) + 0.6) * part;
         t = max(reach * t * sqrt(t), 0.7);
         float z = imageLoad(depth, clamp(ivec2(r.pixel + t * s.along), ivec2(0), last)).x;
-        vec2 point = pointAt(s, z, t);
-        addPoint(h, point - vec2(0.0, s.origin), vec2(point.x * s.scale.x, point.y), t < s.exit && z < skyDepth, s.n, c.connection, c.unit);
+        add(met, s, c, z, t, t < s.exit && z < skyDepth);
     }
 }
 
@@ -70,17 +90,17 @@ vec2 cellAt(Place at, FarFieldConstants c, uint n, uint j, float middle, float f
 }
 
 // `low` and `high`: the segment's sides, lines per pixel of distance.
-void farField(inout Horizon h, Segment s, Place at, FarFieldConstants c, float low, float high) {
+void farField(inout Met met, Segment s, Receiver r, Place at, FarFieldConstants c, float low, float high) {
     uint end = uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals)));
     uint j = at.first;
+    float nothing = kAveraging == kDirect ? c.unit / viewBlock.skyDepth : 0.0;  // the sky's unit / depth
     while (j < end) {
         float gap = float(j) - at.along / c.interval;  // in intervals; the longest that is aligned and not longer than its distance
         uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
-        float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, r = middle - at.along;
-        vec2 cell = cellAt(at, c, n, j >> n, middle, at.line + low * r, at.line + high * r);
-        float depth = c.unit / max(cell.x, 1e-9);
-        vec2 point = pointAt(s, depth, cell.y - at.along);
-        addPoint(h, point - vec2(0.0, s.origin), vec2(point.x * s.scale.x, point.y), cell.x > 0.0, s.n, c.connection, c.unit);
+        float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
+        vec2 cell = kAveraging == kDirect ? vec2(c.unit / imageLoad(depth, clamp(ivec2(r.pixel + away * s.along), ivec2(0), ivec2(r.size) - 1)).x, middle)
+                                          : cellAt(at, c, n, j >> n, middle, at.line + low * away, at.line + high * away);
+        add(met, s, c, c.unit / max(cell.x, 1e-9), cell.y - at.along, cell.x > nothing && (kAveraging != kDirect || away < s.exit));
         j += 1u << n;
     }
 }
@@ -89,14 +109,14 @@ void farField(inout Horizon h, Segment s, Place at, FarFieldConstants c, float l
 vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth) {
     Place at = placeOf(directionsOf[k], r, c);
     vec2 sum = vec2(0.0), along = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * at.d.along;
-    float low = -turn.slope, step = 2.0 * turn.slope / float(c.segments);
+    float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments);
     for (uint i = 0u; i < c.segments; ++i) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
-        Horizon h = horizonAt(s.start);
-        nearField(h, s, r, c, float(at.first) * c.interval - at.along, skyDepth);
-        h.blocked = (c.parts & kNearPart) != 0u ? h.blocked : 0.0;
-        if ((c.parts & kFarPart) != 0u) farField(h, s, at, c, low, low + step);
-        sum += s.weight * vec2(h.blocked, 1.0);
+        Met met = Met(horizonAt(s.start), binsBelow(s.start));
+        nearField(met, s, r, c, float(at.first) * c.interval - at.along, skyDepth);
+        float before = (c.parts & kNearPart) != 0u ? 0.0 : blockedOf(met);
+        if ((c.parts & kFarPart) != 0u) farField(met, s, r, at, c, low, low + step);
+        sum += s.weight * vec2(blockedOf(met) - before, 1.0);
         low += step;
         along = mat2(turn.next, vec2(-turn.next.y, turn.next.x)) * along;
     }

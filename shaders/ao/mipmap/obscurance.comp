@@ -1,11 +1,13 @@
 // Obscurance from a depth pyramid: samples at distances that grow by a factor, from the level whose texels are as wide as the sector
-// there, and one at the picture's edge [Timonen 2013, sec. 5]. The estimator is far_field's, with slabs.
+// there, and one at the picture's edge [Timonen 2013, sec. 5]. The estimator is far_field's, with slabs. Where surfaces are thin, depths are
+// not mixed: the nearest of each texel's, from one level [sec. 11].
 // In: packed normals, depth pyramid, the falloff's table. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kThin = 0;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 2) uniform sampler2D pyramid;
@@ -15,9 +17,12 @@ layout(push_constant) uniform Constants {
     uint directions;  // K
     float factor;     // from step to step
     float unit;       // metres: the falloff's length
+    float thickness;  // of surfaces, metres
+    float jitter;     // of directions, parts of a sector
 };
 #include "ao/far_field/estimator.glsl"
 #include "ao/far_field/receiver.glsl"
+#include "ao/far_field/thin.glsl"
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
@@ -30,24 +35,33 @@ void main() {
         return;
     }
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
-    float growth = factor, metres = unit, half_ = kPi / float(directions), width = 2.0 * tan(half_);
-    vec2 texelSize = 1.0 / r.size, sum = vec2(0.0), side = vec2(cos(half_), sin(half_)), along = vec2(1.0, 0.0);
+    float growth = factor, metres = unit, thick = thickness, half_ = kPi / float(directions), width = 2.0 * tan(half_);
+    vec2 texelSize = 1.0 / r.size, sum = vec2(0.0), side = vec2(cos(half_), sin(half_)), along = jitterAt(view, texel, half_, jitter);
     mat2 next = mat2(cos(2.0 * half_), sin(2.0 * half_), -sin(2.0 * half_), cos(2.0 * half_));
     for (uint k = 0u; k < directions; ++k) {
         Segment s = segmentOf(r, along, 1.0, side);
         Horizon h = horizonAt(s.start);
+        Bins bins = binsBelow(s.start);
         float edge = s.exit - 0.5, t = 1.0, step = 1.0;
         bool more = true;
         while (more) {
             more = t < edge;
             float at = min(t, edge);
-            float sampled = textureLod(pyramid, (r.pixel + at * s.along) * texelSize, log2(max(width * at, 1.0))).x;
-            vec2 point = pointAt(s, sampled, at);
-            addPoint(h, point - vec2(0.0, s.origin), vec2(point.x * s.scale.x, point.y), sampled < view.skyDepth, s.n, 0.0, metres);
+            float level = log2(max(width * at, 1.0)), sampled;
+            vec2 where = r.pixel + at * s.along;
+            if (kThin != 0u) {
+                int mip = min(int(level + 0.5), textureQueryLevels(pyramid) - 1);
+                sampled = texelFetch(pyramid, min(ivec2(where) >> mip, textureSize(pyramid, mip) - 1), mip).x;
+            } else {
+                sampled = textureLod(pyramid, where * texelSize, level).x;
+            }
+            vec2 fromCamera = pointAt(s, sampled, at), point = fromCamera - vec2(0.0, s.origin), slab = vec2(fromCamera.x * s.scale.x, fromCamera.y);
+            if (kThin != 0u) addSlab(bins, point, normalize(slab), thick, sampled < view.skyDepth, s.n, metres);
+            else addPoint(h, point, slab, sampled < view.skyDepth, s.n, 0.0, metres);
             step *= growth;
             t += step;
         }
-        sum += s.weight * vec2(h.blocked, 1.0);
+        sum += s.weight * vec2(kThin != 0u ? bins.sum : h.blocked, 1.0);
         along = next * along;
     }
     imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));
