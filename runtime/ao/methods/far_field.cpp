@@ -96,6 +96,7 @@ public:
         const float connections[] = {0.0f, 1.0f, 0.75f};
         shared::FarFieldConstants constants{};
         constants.directions = directions;
+        constants.stride = 1;
         constants.segments = values.count("segments");
         constants.levels = grid.levels;
         constants.interval = float(grid.interval);
@@ -148,6 +149,7 @@ private:
         const auto& visible = inputs.view.visible;
         Scanned near = scanned, far = scanned;
         near.constants.segments = 1;
+        near.constants.stride = scanned.averaging == Averaging::pyramid && scanned.constants.directions >= 16 ? 2 : 1;  // not in the paper's: half the time, 0.002
         near.constants.parts &= shared::kNearPart;
         far.constants.parts &= shared::kFarPart;
         const graph::ImageId nearField = obscurance(graph, inputs, near, "far_field.near field");

@@ -19,6 +19,7 @@ OBSCURA_SHARED_SIZE(Direction, 32);
 const uint kNearPart = 1u, kFarPart = 2u;
 struct FarFieldConstants {
     uint directions;     // K
+    uint stride;         // every so many-th of them is evaluated
     uint segments;       // of each sector
     uint levels;         // of the pyramid of intervals
     float interval;      // B0, px
@@ -32,7 +33,7 @@ struct FarFieldConstants {
     float thickness;     // of surfaces, metres; 0: endless
     float jitter;        // of directions, parts of a sector
 };
-OBSCURA_SHARED_SIZE(FarFieldConstants, 52);
+OBSCURA_SHARED_SIZE(FarFieldConstants, 56);
 
 OBSCURA_SHARED_END
 #endif

@@ -1,0 +1,67 @@
+// Surfaces of finite thickness, and directions turned from pixel to pixel.
+#include "far_field/bench.h"
+
+namespace obscura::test {
+namespace {
+
+// A board `width` pixels across floats 1 m in front of a wall that is 4 m away.
+Room board(uint32_t width) {
+    Room room = plane({0, 0, 1});
+    for (size_t i = 0; i < room.depth.size(); ++i) room.depth[i] = 4.0f;
+    for (uint32_t y = 0; y < room.height; ++y)
+        for (uint32_t x = room.width / 2 - width / 2; x < room.width / 2 + width / 2; ++x) room.depth[size_t(y) * room.width + x] = 3.0f;
+    return room;
+}
+
+double difference(const Picture& a, const Picture& b) {
+    double sum = 0.0;
+    for (size_t i = 0; i < a.size(); ++i) sum += std::abs(double(a[i]) - double(b[i]));
+    return sum / double(a.size());
+}
+
+class FarFieldThin : public FarFieldTest {
+protected:
+    const char* falloff = "exponential:2";
+    Picture thin(const Room& room, float thickness, float jitter = 0.0f) { return run(room, values({{"thickness", thickness}, {"jitter", jitter}, {"interval", 3}}, "thin"), falloff); }
+};
+
+// Bins cannot tell a surface of 100 m from an endless one: the paper's single horizon and slabs, to the width of a bin.
+TEST_F(FarFieldThin, thickEnoughIsEndless) {
+    const Room room = crease();
+    const Picture endless = run(room, values({{"directions", 16}, {"segments", 1}, {"averaging", 0}, {"estimator", 0}}), falloff);
+    const Picture thick = run(room, values({{"thickness", 100}, {"jitter", 0}}, "thin"), falloff);
+    EXPECT_LT(difference(endless, thick), 0.01);
+    EXPECT_GT(mean(endless), 0.05);
+}
+
+TEST_F(FarFieldThin, thinnerBlocksLess) {
+    const Room room = board(20);
+    double before = 0.0;
+    for (const float thickness : {0.02f, 0.1f, 0.3f, 1.0f, 10.0f}) {
+        const double now = mean(thin(room, thickness));
+        EXPECT_GT(now, before) << thickness;
+        before = now;
+    }
+    // A board as thin as paper blocks what it covers, seen from the wall beside it: little next to a wall of it.
+    EXPECT_LT(mean(thin(room, 0.02f)), 0.35 * mean(thin(room, 10.0f)));
+    m_method = "mipmap";
+    EXPECT_LT(mean(run(room, values({{"thickness", 0.05f}, {"jitter", 0}}, "thin"), falloff)), 0.7 * mean(run(room, values({{"thickness", 10}, {"jitter", 0}}, "thin"), falloff)));
+}
+
+TEST_F(FarFieldThin, jitterIsNoiseAroundTheSamePicture) {
+    const Room room = board(20);
+    const Picture still = thin(room, 1.0f), turned = thin(room, 1.0f, 1.0f);
+    EXPECT_NE(still, turned);
+    EXPECT_NEAR(mean(turned), mean(still), 0.05 * mean(still));
+}
+
+TEST_F(FarFieldThin, directSamplesNeedNoScan) {
+    const Room room = board(20);
+    const Picture direct = run(room, values({{"averaging", 3}, {"jitter", 0}}, "thin"), falloff);
+    EXPECT_EQ(m_graph->planText().find("far_field.scan"), std::string::npos);
+    EXPECT_LT(mean(direct), mean(run(room, values({{"jitter", 0}}, "thin"), falloff)));  // what stands between samples is missed
+    EXPECT_GT(mean(direct), 0.002);
+}
+
+}  // namespace
+}  // namespace obscura::test
