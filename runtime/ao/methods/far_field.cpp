@@ -16,7 +16,9 @@
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: table (when the falloff is new),
 // scan, prefix sums or pyramid, obscurance; interleaved also near field, box average, gather, blur.
+#include <cmath>
 #include <iterator>
+#include <string>
 
 #include "far_field_parts.h"
 
@@ -47,7 +49,8 @@ const Parameter kParameters[] = {
 };
 const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
 const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"interval", 5}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", 1}};
+const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"slope", -1},
+                              {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", 1}};
 const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"interleave", 1}};
 const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"averaging", 0}, {"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
@@ -78,8 +81,9 @@ public:
             if (thin && gpu::Program::compute(device, shaders, "ao/far_field/obscurance.comp", {{0, i}, {1, 1}}, result->m_thin[i]) != gpu::Status::ok) return nullptr;
             if (gpu::Program::compute(device, shaders, "ao/far_field/interleaved.comp", {{0, i}}, result->m_interleaved[i]) != gpu::Status::ok) return nullptr;
         }
-        const struct { const char* name; gpu::Program* program; } programs[] = {
-            {"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid}, {"box_average", &result->m_boxAverage}, {"gather", &result->m_gather}, {"blur", &result->m_blur}};
+        const struct { const char* name; gpu::Program* program; } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid},
+                                                                                {"box_average", &result->m_boxAverage}, {"gather", &result->m_gather},
+                                                                                {"blur", &result->m_blur}};
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, std::string("ao/far_field/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;
         return result;
@@ -124,7 +128,8 @@ public:
                 .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
         }
         const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
-        return values.count("interleave") && thickness <= 0.0f ? interleaved(graph, inputs, scanned, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
+        const bool sharedOut = values.count("interleave") && thickness <= 0.0f;
+        return sharedOut ? interleaved(graph, inputs, scanned, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
     }
 
 private:
