@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "ao/resolve.h"
+#include "ao/upsample.h"
 
 namespace obscura::ao {
 namespace {
@@ -20,11 +21,6 @@ struct Trace {
     shared::FalloffBlock falloff;
     uint32_t rays, steps, scale;
     float cone, offset, jitter, grain;
-};
-
-struct Upsample {
-    int32_t scale;
-    float window, range;
 };
 
 constexpr float kGrain = 0.1f;  // metres a cell of the noise
@@ -60,8 +56,7 @@ public:
         auto result = std::make_unique<Hybrid>();
         result->m_device = &device;
         if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {}, result->m_trace) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/rows.comp", {}, result->m_rows) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/columns.comp", {}, result->m_columns) != gpu::Status::ok) return nullptr;
+        if (Upsample::create(device, shaders, result->m_upsample) != Status::ok) return nullptr;
         return result;
     }
 
@@ -70,8 +65,7 @@ public:
         const auto& visible = inputs.view.visible;
         const uint32_t scale = values.count("map");
         const uint32_t width = (visible.x + scale - 1) / scale, height = (visible.y + scale - 1) / scale;
-        const auto image = [&](const char* name, uint32_t w, uint32_t h) { return graph.image(name, {VK_FORMAT_R16_SFLOAT, w, h}); };
-        const graph::ImageId map = image("hybrid.map", width, height);
+        const graph::ImageId map = graph.image("hybrid.map", {VK_FORMAT_R16_SFLOAT, width, height});
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
         const Trace trace{inputs.falloff, values.count("rays"), values.count("steps"), scale, std::cos(values["spread"] * 1.5707963f), values["offset"],
                           values["jitter"], 1.0f / kGrain};
@@ -79,13 +73,8 @@ public:
             .read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
         if (scale == 1 && values["filter"] < 1.0f) return map;
 
-        const Upsample upsample{int32_t(scale), std::max(values["filter"], 2.0f * float(scale)), values["filter_range"] * inputs.falloff.reach};
-        const graph::ImageId rows = image("hybrid.rows", visible.x, height), visibility = image("hybrid.visibility", visible.x, visible.y);
-        graph.pass("hybrid.rows", m_rows).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(map).read(receivers).write(rows)
-            .constants(upsample).dispatch(visible.x, height);
-        graph.pass("hybrid.columns", m_columns).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(rows).write(visibility)
-            .constants(upsample).dispatch(visible.x, visible.y);
-        return visibility;
+        const UpsampleSettings upsample{scale, std::max(values["filter"], 2.0f * float(scale)), values["filter_range"] * inputs.falloff.reach};
+        return m_upsample.add(graph, inputs, {map, receivers}, upsample, "hybrid");
     }
 
 private:
@@ -96,7 +85,8 @@ private:
     }
 
     gpu::Device* m_device = nullptr;
-    gpu::Program m_trace, m_rows, m_columns;
+    gpu::Program m_trace;
+    Upsample m_upsample;
     bool m_said = false;
 };
 

@@ -15,6 +15,7 @@ layout(set = 0, binding = 3, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D map;
 layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D receivers;  // linear depth as bits, packed normal
+#include "ao/common/map.glsl"
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
     uint rays;
@@ -28,15 +29,6 @@ layout(push_constant) uniform Constants {
 
 const float kTwoPi = 6.28318531;
 
-// Three numbers in [0,1) from a lattice cell [Jarzynski and Olano 2020, pcg3d].
-vec3 noise(ivec3 cell) {
-    uvec3 v = uvec3(cell) * 1664525u + 1013904223u;
-    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-    return vec3(v >> 8) / 16777216.0;
-}
-
 void main() {
     View view = viewBlock;
     Volume volume = volumeBlock;
@@ -45,23 +37,7 @@ void main() {
     float coneCosine = cone, offsetCells = offset, jitterOfSteps = jitter;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(map)))) return;
-    // Of the pixels that this one stands for, the one that faces most as all of them do: a ledge a pixel wide is not sampled by
-    // chance, here and there.
-    int every = int(scale);
-    ivec2 corner = p * every + ivec2(view.guard), last = ivec2(view.visible) - 1 + ivec2(view.guard);
-    vec3 together = vec3(0.0);
-    for (int i = 0; i < every * every; ++i) {
-        ivec2 q = min(corner + ivec2(i % every, i / every), last);
-        together += isSky(view, imageLoad(depth, q).x) ? vec3(0.0) : unpackNormal(imageLoad(normals, q).x);
-    }
-    float best = -1e9;
-    ivec2 texel = corner;
-    for (int i = 0; i < every * every; ++i) {
-        ivec2 q = min(corner + ivec2(i % every, i / every), last);
-        float agrees = isSky(view, imageLoad(depth, q).x) ? -1e8 : dot(together, unpackNormal(imageLoad(normals, q).x));
-        texel = agrees > best + 1e-4 ? q : texel;
-        best = max(best, agrees);
-    }
+    ivec2 texel = receiverOf(view, p, int(scale));
     float z = imageLoad(depth, texel).x;
     uint packed = imageLoad(normals, texel).x;
     imageStore(receivers, p, uvec4(floatBitsToUint(z), packed, 0, 0));
@@ -79,11 +55,9 @@ void main() {
     vec3 receiver = cellOf(volume, here);
     vec3 origin = receiver + offsetCells * normal;
     // Noise of the place, not of the pixel: it rests on the surface while the camera moves.
-    vec3 xi = fract(noise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
-    // [Duff 2017, Building an Orthonormal Basis, Revisited]
-    float s = normal.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + normal.z), b = normal.x * normal.y * a;
-    vec3 tangent = vec3(1.0 + s * normal.x * normal.x * a, s * b, -s * normal.x);
-    vec3 bitangent = vec3(b, s + normal.y * normal.y * a, -normal.y);
+    vec3 xi = fract(latticeNoise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
+    vec3 tangent, bitangent;
+    around(normal, tangent, bitangent);
 
     float step = rho.reach / float(stepCount), cellsPerStep = step / metres;
     float lift = offsetCells * metres;

@@ -1,6 +1,6 @@
-// Joint bilateral upsampling along one axis [Reinbothe 2009, eqs. 5 to 8]: what rows.comp and columns.comp share.
-#ifndef OBSCURA_HYBRID_BILATERAL_GLSL
-#define OBSCURA_HYBRID_BILATERAL_GLSL
+// Joint bilateral upsampling along one axis [Reinbothe 2009, eqs. 5 to 8]: what upsample_rows.comp and upsample_columns.comp share.
+#ifndef OBSCURA_UPSAMPLE_GLSL
+#define OBSCURA_UPSAMPLE_GLSL
 
 // [Wendland 1995]: 1 at 0, 0 from 1 on.
 float bump(float t) {

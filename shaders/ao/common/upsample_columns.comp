@@ -1,8 +1,8 @@
-// Hybrid obscurance, third pass: joint bilateral upsampling along the columns, from every `scale`th row to all of them.
-// In: visibility of those rows, linear depth, packed normals. Out: visibility, visible size.
+// Joint bilateral upsampling along the columns, from every `scale`th row to all of them. See runtime/ao/upsample.h.
+// In: visibility of those rows, linear depth, packed normals; what it joins. Out: visibility, visible size.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bilateral.glsl"
+#include "upsample.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -10,12 +10,14 @@ layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
-layout(set = 0, binding = 4, r16f) uniform writeonly image2D result;
+layout(set = 0, binding = 4, r16f) uniform readonly image2D other;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D result;
 layout(push_constant) uniform Constants {
     int scale;         // pixels between two of the source's rows
     float window;      // m, px
     float range;       // metres beyond which positions share nothing
 };
+layout(constant_id = 0) const uint joins = 0;  // 1: what is blocked here is taken from `other`, visible size
 
 void main() {
     View view = viewBlock;
@@ -25,7 +27,7 @@ void main() {
     ivec2 guard = ivec2(view.guard), last = ivec2(view.visible) - 1 + guard, own = p + guard;
     float z = imageLoad(depth, own).x;
     if (isSky(view, z)) {
-        imageStore(result, p, vec4(1.0));
+        imageStore(result, p, joins != 0u ? imageLoad(other, p) : vec4(1.0));
         return;
     }
     vec3 here = eyePosition(view, vec2(own) + 0.5, z);
@@ -47,5 +49,6 @@ void main() {
         sum += w * value;
         weight += w;
     }
-    imageStore(result, p, vec4(weight > 0.0 ? sum / weight : nearest));
+    float value = weight > 0.0 ? sum / weight : nearest;
+    imageStore(result, p, vec4(joins != 0u ? max(imageLoad(other, p).x - (1.0 - value), 0.0) : value));
 }

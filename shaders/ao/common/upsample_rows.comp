@@ -1,8 +1,8 @@
-// Hybrid obscurance, second pass: joint bilateral upsampling along the rows, from the map to every pixel of every `scale`th row.
+// Joint bilateral upsampling along the rows, from a map to every pixel of every `scale`th row. See runtime/ao/upsample.h.
 // In: the map and its receivers, linear depth, packed normals. Out: visibility, full width, the map's height.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bilateral.glsl"
+#include "upsample.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,0 +1,42 @@
+// What passes on a map share that has fewer pixels than the picture (runtime/ao/upsample.h): which pixel receives, noise that rests on
+// surfaces, a frame around a normal. The includer has declared `depth` and `normals`, the images.
+#ifndef OBSCURA_MAP_GLSL
+#define OBSCURA_MAP_GLSL
+
+// Of the `every` x `every` pixels that the map's pixel p stands for, the one that faces most as all of them do, guard band counted:
+// a ledge a pixel wide is not sampled by chance, here and there.
+ivec2 receiverOf(View view, ivec2 p, int every) {
+    ivec2 corner = p * every + ivec2(view.guard), last = ivec2(view.visible) - 1 + ivec2(view.guard);
+    vec3 together = vec3(0.0);
+    for (int i = 0; i < every * every; ++i) {
+        ivec2 q = min(corner + ivec2(i % every, i / every), last);
+        together += isSky(view, imageLoad(depth, q).x) ? vec3(0.0) : unpackNormal(imageLoad(normals, q).x);
+    }
+    float best = -1e9;
+    ivec2 texel = corner;
+    for (int i = 0; i < every * every; ++i) {
+        ivec2 q = min(corner + ivec2(i % every, i / every), last);
+        float agrees = isSky(view, imageLoad(depth, q).x) ? -1e8 : dot(together, unpackNormal(imageLoad(normals, q).x));
+        texel = agrees > best + 1e-4 ? q : texel;
+        best = max(best, agrees);
+    }
+    return texel;
+}
+
+// Three numbers in [0,1) from a lattice cell [Jarzynski and Olano 2020, pcg3d].
+vec3 latticeNoise(ivec3 cell) {
+    uvec3 v = uvec3(cell) * 1664525u + 1013904223u;
+    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+    return vec3(v >> 8) / 16777216.0;
+}
+
+// Two unit vectors across a unit vector [Duff 2017, Building an Orthonormal Basis, Revisited].
+void around(vec3 n, out vec3 tangent, out vec3 bitangent) {
+    float s = n.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;
+    tangent = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    bitangent = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
+#endif
