@@ -127,17 +127,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_flag("--list-scenes", listScenes, "Print the named scenes and where they are found")->group(kLists);
     cli.add_flag("--list-devices", listDevices, "Print the Vulkan devices")->group(kLists);
 
-    try {
-        cli.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::fputs(cli.help().c_str(), stdout);
-        return std::nullopt;
-    } catch (const CLI::CallForVersion& version) {
-        std::puts(version.what());
-        return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        app::complain(cli, error);
-    }
+    if (!app::parse(cli, argc, argv)) return std::nullopt;
 
     if (listMethods) options.job = Job::listMethods;
     else if (listScenes) options.job = Job::listScenes;

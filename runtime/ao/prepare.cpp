@@ -39,12 +39,6 @@ Inputs Prepare::add(graph::Graph& graph, const Frame& frame, const shared::View&
     inputs.motion = sources.motion;
     inputs.motionScale[0] = frame.motionScale[0];
     inputs.motionScale[1] = frame.motionScale[1];
-    if (sources.volume) {
-        shared::Volume block;
-        const char* reason = nullptr;
-        volumeOf(frame.volume, block, reason);  // the library has asked before
-        inputs.volume = {sources.volume, graph.upload("volume", block)};
-    }
     if (sources.direct) {
         inputs.depth = sources.depth;
         inputs.normals = sources.normals;

@@ -15,8 +15,8 @@ struct Reprojection {  // temporal.comp
 
 }  // namespace
 
-graph::ImageId allOpen(graph::Graph& graph, const Inputs& inputs, const char* passName) {
-    const graph::ImageId visibility = graph.image(passName, {VK_FORMAT_R16_SFLOAT, inputs.view.visible.x, inputs.view.visible.y});
+graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible, const char* passName) {
+    const graph::ImageId visibility = graph.image(passName, {VK_FORMAT_R16_SFLOAT, visible.width, visible.height});
     graph.pass(passName).use(visibility, graph::Access::transferWrite, true).record([visibility](const graph::PassContext& c) {
         const VkClearColorValue open{{1.0f, 1.0f, 1.0f, 1.0f}};
         const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};

@@ -5,8 +5,8 @@
 
 namespace obscura::ao {
 
-// Visibility 1 everywhere, R16F, visible size.
-graph::ImageId allOpen(graph::Graph& graph, const Inputs& inputs, const char* passName);
+// Visibility 1 everywhere, R16F.
+graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible, const char* passName);
 
 // 5x5 Gaussian (6, 4, 1) x max(0, n.n') x 1 / (1 + sharpness |plane distance| / depth): smooths over a surface, keeps its edges. The
 // plane distance is that of the neighbour's position from the pixel's tangent plane.

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,6 +10,23 @@
 #include "app/complaint.h"
 
 namespace obscura::app {
+namespace {
+
+[[noreturn]] void complain(const CLI::App& cli, const CLI::ParseError& error) {
+    std::string text = oneLine(error.what());
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        std::vector<std::string> known;
+        for (const CLI::Option* option : cli.get_options())
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        const std::vector<std::string> extras = cli.remaining();
+        const std::string word = extras.empty() ? text : extras.front();
+        const std::string near = nearest(word.substr(0, word.find('=')), known);
+        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
+    }
+    throw Complaint(fmt::format("{} ({} --help lists all options)", text, cli.get_name()));
+}
+
+}  // namespace
 
 std::vector<float> numbers(const std::string& text, char separator) {
     std::vector<float> list;
@@ -35,18 +53,19 @@ glm::uvec2 sizeOf(const std::string& text) {
     return {uint32_t(list[0]), uint32_t(list[1])};
 }
 
-void complain(const CLI::App& cli, const CLI::ParseError& error) {
-    std::string text = oneLine(error.what());
-    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
-        std::vector<std::string> known;
-        for (const CLI::Option* option : cli.get_options())
-            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-        const std::vector<std::string> extras = cli.remaining();
-        const std::string word = extras.empty() ? text : extras.front();
-        const std::string near = nearest(word.substr(0, word.find('=')), known);
-        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
+bool parse(CLI::App& cli, int argc, const char* const* argv) {
+    try {
+        cli.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::fputs(cli.help().c_str(), stdout);
+        return false;
+    } catch (const CLI::CallForVersion& version) {
+        std::puts(version.what());
+        return false;
+    } catch (const CLI::ParseError& error) {
+        complain(cli, error);
     }
-    throw Complaint(fmt::format("{} ({} --help lists all options)", text, cli.get_name()));
+    return true;
 }
 
 }  // namespace obscura::app

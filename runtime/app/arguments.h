@@ -8,7 +8,6 @@
 
 namespace CLI {
 class App;
-class ParseError;
 }
 
 namespace obscura::app {
@@ -17,7 +16,8 @@ namespace obscura::app {
 std::vector<float> numbers(const std::string& text, char separator);
 // "1280x720", px; throws Complaint that says how a size is written.
 glm::uvec2 sizeOf(const std::string& text);
-// CLI11 says what is wrong; this adds what to do. Throws Complaint.
-[[noreturn]] void complain(const CLI::App& cli, const CLI::ParseError& error);
+// Reads the command line. False: it asked for help or the version, which is printed. What CLI11 finds wrong is thrown as a
+// Complaint that adds what to do.
+bool parse(CLI::App& cli, int argc, const char* const* argv);
 
 }  // namespace obscura::app

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/gltf.h"
+
 namespace obscura::app {
 
 namespace {
@@ -27,6 +29,22 @@ size_t distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+int guarded(const char* program, const std::function<int()>& body) {
+    const auto say = [program](const std::exception& error) { fmt::print(stderr, "{}: {}\n", program, oneLine(error.what())); };
+    try {
+        return body();
+    } catch (const Complaint& complaint) {
+        say(complaint);
+        return complaint.code;
+    } catch (const scene::Error& error) {
+        say(error);
+        return kBadInput;
+    } catch (const std::exception& error) {
+        say(error);
+        return kFailed;
+    }
+}
 
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names) {
     std::string best;

@@ -1,6 +1,7 @@
 // What a user did that cannot work, as one line: what, where, what to do. main() prints it and exits with kBadInput.
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ struct Complaint : std::runtime_error {
     explicit Complaint(const std::string& line, int exitCode = kBadInput) : std::runtime_error(line), code(exitCode) {}
     int code;
 };
+
+// Runs a program's body: what it throws becomes one line on stderr, "program: what", and an exit code.
+int guarded(const char* program, const std::function<int()>& body);
 
 // The name nearest to a mistyped one; empty when none is near.
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names);

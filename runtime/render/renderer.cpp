@@ -43,7 +43,6 @@ struct Renderer::Impl {
     }
     Status load(const scene::World& world);
     CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const;
-    graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible);
     void count(const scene::World& world);
 };
 
@@ -149,17 +148,6 @@ CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size,
     return pair;
 }
 
-// Stands in where the library could not run: it has said why.
-graph::ImageId Renderer::Impl::allOpen(graph::Graph& graph, VkExtent2D visible) {
-    const graph::ImageId image = graph.image("no visibility", {VK_FORMAT_R16_SFLOAT, visible.width, visible.height});
-    graph.pass("no visibility").use(image, graph::Access::transferWrite, true).record([image](const graph::PassContext& c) {
-        const VkClearColorValue one{{1.0f, 1.0f, 1.0f, 1.0f}};
-        const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        c.device.vk().CmdClearColorImage(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &one, 1, &range);
-    });
-    return image;
-}
-
 void Renderer::Impl::count(const scene::World& world) {
     facts = {};
     facts.triangles = draws.triangles;
@@ -202,7 +190,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     if (options.method->info().needs & ao::kVolume)
         sources.volume = impl.voxels.add(graph, world, options.time, options.camera, options.voxels, !options.skipMasked, aoFrame.volume);
     graph::ImageId visibility = impl.library.add(graph, aoFrame, sources, options.falloff, *options.method, &prepared);
-    if (!visibility) visibility = impl.allOpen(graph, options.visible);
+    if (!visibility) visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has said why
     shared::View view{};
     const char* reason = nullptr;
     ao::viewOf(aoFrame, view, reason);

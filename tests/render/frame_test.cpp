@@ -1,4 +1,5 @@
 // The frame as a whole: guard band, culling, determinism, normals, views, what is released.
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -219,6 +220,39 @@ TEST_F(Frame, aSceneSwitchLeavesNothingBehind) {
         switched.render(second, options);
     }
     EXPECT_EQ(switched.render(second, options).depth, fresh.render(second, options).depth);
+}
+
+// Bricks are told once: they are sent even in a frame that shows something else.
+TEST_F(Frame, voxelsArriveThoughNobodyLooksAtThem) {
+    graph::Graph graph(device());
+    render::VoxelVolume voxels;
+    scene::World world;
+    world.add(instanceOf(floorPlate()));
+    const scene::Camera camera = Bench().options().camera;
+    gpu::Buffer back;
+    uint64_t bytes = 0;
+    for (const bool looked : {false, true}) {
+        device().nextFrame();
+        graph.begin();
+        ao::Volume volume;
+        const graph::BufferId bits = voxels.add(graph, world, 0.0f, camera, {}, true, volume);
+        ASSERT_TRUE(bool(bits));
+        bytes = uint64_t(volume.cells) * volume.cells * volume.cells / 8;
+        if (looked) {
+            ASSERT_EQ(gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+            graph.pass("read back").use(bits, graph::Access::transferRead).use(graph.import("back", back, graph::Graph::Shared::written), graph::Access::transferWrite)
+                .keep().record([&, bits](const graph::PassContext& c) {
+                    const VkBufferCopy region{c.buffer(bits).offset, 0, bytes};
+                    c.device.vk().CmdCopyBuffer(c.cmd, c.buffer(bits).buffer, back.handle(), 1, &region);
+                });
+        }
+        ASSERT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
+    }
+    const auto* words = reinterpret_cast<const uint32_t*>(back.mapped());
+    size_t set = 0;
+    for (uint64_t i = 0; i < bytes / 4; ++i) set += size_t(std::popcount(words[i]));
+    EXPECT_EQ(set, voxels.voxels()->statistics().resting.cells);
+    EXPECT_GT(set, 100u);
 }
 
 TEST_F(Frame, removedModelsLeaveMemory) {

@@ -1,6 +1,5 @@
 // Reads the command line, measures, writes; turns every failure into one line and an exit code.
 #include <cstdio>
-#include <exception>
 
 #include <fmt/format.h>
 
@@ -75,15 +74,5 @@ int run(int argc, char** argv) {
 }  // namespace obscura::evaluate
 
 int main(int argc, char** argv) {
-    using namespace obscura;
-    try {
-        return evaluate::run(argc, argv);
-    } catch (const app::Complaint& complaint) {
-        std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(complaint.what()).c_str());
-        return complaint.code;
-    } catch (const scene::Error& error) {
-        std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(error.what()).c_str());
-        return app::kBadInput;
-    } catch (const std::exception& error) { std::fprintf(stderr, "obscura-evaluate: %s\n", app::oneLine(error.what()).c_str()); }
-    return app::kFailed;
+    return obscura::app::guarded("obscura-evaluate", [&] { return obscura::evaluate::run(argc, argv); });
 }

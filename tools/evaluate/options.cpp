@@ -177,15 +177,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_flag("--list-methods", list, "Print the methods and their presets");
     cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and where they are found");
 
-    try {
-        cli.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::fputs(cli.help().c_str(), stdout);
-        return std::nullopt;
-    } catch (const CLI::CallForVersion& version) {
-        std::puts(version.what());
-        return std::nullopt;
-    } catch (const CLI::ParseError& error) { app::complain(cli, error); }
+    if (!app::parse(cli, argc, argv)) return std::nullopt;
     if (list || scenesListed) {
         list ? listMethods() : listScenes();
         return std::nullopt;

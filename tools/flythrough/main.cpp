@@ -1,7 +1,6 @@
 // Reads the command line, flies, writes; turns every failure into one line and an exit code.
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 
 #include <fmt/format.h>
 
@@ -94,15 +93,5 @@ int run(int argc, char** argv) {
 }  // namespace obscura::flythrough
 
 int main(int argc, char** argv) {
-    using namespace obscura;
-    try {
-        return flythrough::run(argc, argv);
-    } catch (const app::Complaint& complaint) {
-        std::fprintf(stderr, "obscura-flythrough: %s\n", app::oneLine(complaint.what()).c_str());
-        return complaint.code;
-    } catch (const scene::Error& error) {
-        std::fprintf(stderr, "obscura-flythrough: %s\n", app::oneLine(error.what()).c_str());
-        return app::kBadInput;
-    } catch (const std::exception& error) { std::fprintf(stderr, "obscura-flythrough: %s\n", app::oneLine(error.what()).c_str()); }
-    return app::kFailed;
+    return obscura::app::guarded("obscura-flythrough", [&] { return obscura::flythrough::run(argc, argv); });
 }

@@ -108,15 +108,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_flag("--verbose", options.verbose, "Print what the device and the loader have to say");
     cli.add_flag("--list", list, "Print the flythroughs there are");
 
-    try {
-        cli.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::fputs(cli.help().c_str(), stdout);
-        return std::nullopt;
-    } catch (const CLI::CallForVersion& version) {
-        std::puts(version.what());
-        return std::nullopt;
-    } catch (const CLI::ParseError& error) { app::complain(cli, error); }
+    if (!app::parse(cli, argc, argv)) return std::nullopt;
     if (list) {
         listFlythroughs();
         return std::nullopt;

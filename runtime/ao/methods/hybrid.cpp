@@ -81,7 +81,7 @@ private:
     graph::ImageId open(graph::Graph& graph, const Inputs& inputs) {
         if (!m_said) m_device->log(gpu::Severity::warning, "hybrid: the frame brings no volume, so nothing is blocked");
         m_said = true;
-        return allOpen(graph, inputs, "hybrid.open");
+        return allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "hybrid.open");
     }
 
     gpu::Device* m_device = nullptr;

@@ -47,13 +47,11 @@ void main() {
     uvec4 corner = uvec4(rows.x + columns, rows.y + columns);
     uvec2 sum = WINDOW(root, 1u, 0u);
     uint code = level > 1u ? codes[at] : 0u;
-    if (level == 2u) {
+    if (level >= 2u) {
         uvec2 near = WINDOW(first, 1u, 0u);
         sum = (code & 1u) != 0u ? near : sum - near;
     }
     if (level == 3u) {
-        uvec2 near = WINDOW(first, 1u, 0u);
-        sum = (code & 1u) != 0u ? near : sum - near;
         uint branch = (code & 1u) != 0u ? 0u : 1u;
         uvec2 nearer = WINDOW(second, 2u, branch);
         sum = (code & 2u) != 0u ? nearer : sum - nearer;
