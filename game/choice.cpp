@@ -29,6 +29,32 @@ std::string falloffText(const ao::Falloff& falloff) {
     return falloff.kind == ao::FalloffKind::ramp ? fmt::format("{}:{:g}", text, falloff.end) : text;
 }
 
+const ao::Preset* presetOf(const ao::Values& values) {
+    for (const ao::Preset& preset : values.info().presets) {
+        ao::Values same(values.info());
+        same.apply(preset);
+        if (same == values) return &preset;
+    }
+    return nullptr;
+}
+
+std::string label(const ao::Values& values) {
+    const ao::Preset* preset = presetOf(values);
+    const std::string id = values.info().id;
+    if (!preset) return values.info().presets.size() > 0 ? id + " (own)" : id;
+    return std::string_view(preset->id) == "default" ? id : id + " " + preset->id;
+}
+
+std::string asOptions(const ao::Values& values, bool compare) {
+    std::string text = fmt::format("{} {}", compare ? "--compare" : "--method", values.info().id);
+    if (const ao::Preset* preset = presetOf(values)) return text + (preset == &values.info().presets[0] ? "" : (compare ? ":" : " --preset ") + std::string(preset->id));
+    ao::Values first(values.info());
+    if (values.info().presets.size() > 0) first.apply(values.info().presets[0]);
+    for (const ao::Parameter& parameter : values.info().parameters)
+        if (values[parameter.id] != first[parameter.id]) text += fmt::format("{}{}={:g}", compare ? "," : " --set ", parameter.id, values[parameter.id]);
+    return text;
+}
+
 Choice::Choice() {
     for (const ao::MethodInfo* info : ao::methods()) {
         ao::Values values(*info);
@@ -101,6 +127,22 @@ void Choice::assign(const std::string& assignment) {
     }
     if (names.empty()) throw Complaint(fmt::format("--set {}: {} has no parameters", assignment, info.id));
     throw Complaint(fmt::format("--set {}: {} has no parameter {}; {}", assignment, info.id, name, app::choices(name, names)));
+}
+
+void Choice::read(const std::string& text) {
+    const size_t comma = text.find(','), colon = text.substr(0, comma).find(':');
+    try {
+        select(text.substr(0, std::min(comma, colon)));
+        if (colon != std::string::npos) applyPreset(text.substr(colon + 1, comma == std::string::npos ? comma : comma - colon - 1));
+        for (size_t at = comma; at != std::string::npos;) {
+            const size_t next = text.find(',', at + 1);
+            assign(text.substr(at + 1, next == std::string::npos ? next : next - at - 1));
+            at = next;
+        }
+    } catch (const Complaint& complaint) {
+        const std::string what = complaint.what();  // names the option that would have said the same
+        throw Complaint(fmt::format("--compare {}: {}", text, what.substr(what.find(": ") + 2)));
+    }
 }
 
 void Choice::setFalloff(const std::string& text) {

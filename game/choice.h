@@ -24,6 +24,7 @@ public:
     void applyPreset(const std::string& id);        // to the selected method, from its initial values on
     void assign(const std::string& assignment);     // "METHOD.PARAMETER=VALUE", or "PARAMETER=VALUE" for the selected one
     void setFalloff(const std::string& text);
+    void read(const std::string& text);             // "METHOD[:PRESET][,PARAMETER=VALUE...]", as --compare takes it
 
     ao::Falloff falloff;
 
@@ -33,7 +34,12 @@ private:
 };
 
 std::vector<std::string> methodIds();
+// Which preset the values are at this moment; null when they are nobody's.
+const ao::Preset* presetOf(const ao::Values& values);
+std::string label(const ao::Values& values);  // "hbao 8x4"; the default preset goes without saying, "(own)" is none
 std::string falloffText(const ao::Falloff& falloff);  // as setFalloff reads it
+// The options that choose these values: --method ID --preset NAME or --set ..., or the same as one --compare.
+std::string asOptions(const ao::Values& values, bool compare);
 inline constexpr const char* kFalloffNames[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};
 
 }  // namespace obscura::game

@@ -93,7 +93,7 @@ void Engine::expect(gpu::Status status, const char* doing) const {
     throw Complaint(fmt::format("{}: {} while {}{}{}", m_device->caps().deviceName, gpu::name(status), doing, last, advice), app::kFailed);
 }
 
-void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& values, render::View view) {
+void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& values, const ao::Values* compare, render::View view) {
     expect(m_frames->begin(*m_graph), "warming up");
     render::FrameOptions frame;
     frame.visible = {tinySide(options.size.width), tinySide(options.size.height)};
@@ -101,6 +101,7 @@ void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& v
     frame.camera = stage.startCamera();
     frame.method = &values;
     frame.falloff = options.choice.falloff;
+    frame.compare = compare;
     frame.view = view;
     frame.cut = true;
     frame.voxels = options.voxels;
@@ -130,16 +131,18 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
                 expect(gpu::Status::shaderError, "making the method's pipelines");
         }
     }
+    if (options.compare && !m_renderer->otherLibrary().prepare(options.compare->info())) expect(gpu::Status::shaderError, "making the second method's pipelines");
     started.pipelines += (app::now() - begun) * 1e-3;
 
     begun = app::now();
     app::Progress progress("warming up", methods.size());
     for (size_t i = 0; i < methods.size(); ++i) {
         progress.at(i, methods[i]->id);
-        frameOnce(options, stage, ao::Values(*methods[i]), render::View::final);
-        frameOnce(options, stage, ao::Values(*methods[i]), render::View::visibility);
+        frameOnce(options, stage, ao::Values(*methods[i]), nullptr, render::View::final);
+        frameOnce(options, stage, ao::Values(*methods[i]), nullptr, render::View::visibility);
     }
-    if (options.view != render::View::pass) frameOnce(options, stage, options.choice.values(), options.view);
+    const ao::Values* compare = options.compare ? &options.compare->values() : nullptr;
+    if (options.view != render::View::pass) frameOnce(options, stage, options.choice.values(), compare, options.view);
     expect(m_frames->wait(), "warming up");
     started.warmUp = (app::now() - begun) * 1e-3;
 }

@@ -44,7 +44,7 @@ public:
     Started started;
 
 private:
-    void frameOnce(const Options& options, Stage& stage, const ao::Values& values, render::View view);
+    void frameOnce(const Options& options, Stage& stage, const ao::Values& values, const ao::Values* compare, render::View view);
     bool m_verbose;
     bool m_reloads = false;
     std::vector<std::string> m_messages;

@@ -91,6 +91,9 @@ int runHeadless(const Options& options) {
             frame.time = time;
             frame.method = &options.choice.values();
             frame.falloff = options.choice.falloff;
+            frame.compare = options.compare ? &options.compare->values() : nullptr;
+            frame.split = options.split;
+            frame.differenceRange = options.differenceRange;
             frame.view = options.view;
             frame.passView = options.passView;
             frame.exposure = options.exposure * stage.info.exposure;
@@ -131,8 +134,8 @@ int runHeadless(const Options& options) {
         report.write(options.out);
         fmt::print("{}: {} pictures, summary.html, timings.json\n", options.out.string(), frames);
     }
-    fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, options.choice.info().id, options.size.width, options.size.height,
-               engine.device().caps().deviceName, report.table());
+    const std::string methods = options.compare ? fmt::format("{} | {}", label(options.choice.values()), label(options.compare->values())) : options.choice.info().id;
+    fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, methods, options.size.width, options.size.height, engine.device().caps().deviceName, report.table());
     return closingWords(options, engine);
 }
 

@@ -9,7 +9,7 @@ namespace obscura::game {
 enum class Action {
     quit, toggleOverlay, toggleKeys, screenshot, fullScreen, visibilityOnly, nextView, method, previousMethod, nextMethod,
     nextPreset, pause, stepBack, stepForward, faster, slower, toggleWalk, toggleFlythrough, resetCamera, dropToy, removeToy,
-    clearToys,
+    clearToys, compare, nextOther, swapSides, copySide, dividerLeft, dividerRight,
 };
 
 struct KeyBinding {

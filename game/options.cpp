@@ -64,7 +64,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
                "\nExit codes: 0 done, 1 the machine could not do it, 2 bad input, 3 the validation layer complained\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::string method, preset, falloff, view = "final", size, camera, eye, target;
+    std::string method, preset, falloff, compare, view = "final", size, camera, eye, target;
     std::vector<std::string> assignments;
     bool headless = false, listMethods = false, listScenes = false, listDevices = false, flythrough = false, noVsync = false;
     uint32_t frames = 1, switchTest = 0;
@@ -77,8 +77,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
         ->group(kPicture)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kPicture);
-    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, or pass:NAME")
+    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signed-difference, or pass:NAME")
         ->group(kPicture)->capture_default_str();
+    cli.add_option("--compare", compare, "METHOD[:PRESET][,PARAMETER=VALUE...]: a second setting B on the same frames, shown right of a divider")->group(kPicture);
+    cli.add_option("--split", options.split, "Where the divider stands, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
+    cli.add_option("--difference-range", options.differenceRange, "Difference of visibility at which the difference views end")
+        ->group(kPicture)->check(CLI::Range(0.001f, 1.0f))->capture_default_str();
     cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
     cli.add_option("--guard", options.guard, "Guard band around the picture, fraction of each side")->group(kPicture)->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
     cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")->group(kPicture)->check(CLI::Range(0.001f, 1000.0f))->capture_default_str();
@@ -160,6 +164,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         for (const render::View known : render::kViews) names.emplace_back(render::name(known));
         throw Complaint(fmt::format("--view {}: no such view; {}, pass:NAME", view, app::choices(view, names)));
     }
+    if (!compare.empty()) options.compare.emplace().read(compare);
+    if (render::isDifference(options.view) && !options.compare) throw Complaint(fmt::format("--view {}: of what? name a second method with --compare", view));
     return options;
 }
 

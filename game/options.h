@@ -50,6 +50,9 @@ struct Options {
     render::Voxelization voxels;
     CameraChoice camera;
     Choice choice;
+    std::optional<Choice> compare;       // the second side; its falloff is not used
+    float split = 0.5f;
+    float differenceRange = 0.25f;
     render::View view = render::View::final;
     std::string passView;
     std::filesystem::path screenshot;

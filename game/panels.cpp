@@ -9,8 +9,6 @@
 
 namespace obscura::game {
 
-namespace {
-
 void tip(const char* sentence) {
     if (!*sentence || !ImGui::IsItemHovered()) return;
     ImGui::BeginTooltip();
@@ -19,6 +17,8 @@ void tip(const char* sentence) {
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }
+
+namespace {
 
 void methodMenu(Session& session) {
     const auto methods = ao::methods();
@@ -32,17 +32,9 @@ void methodMenu(Session& session) {
     ImGui::EndListBox();
 }
 
-// Which preset the values are at this moment; null when they are nobody's.
-const ao::Preset* presetOf(const ao::Values& values) {
-    for (const ao::Preset& preset : values.info().presets) {
-        ao::Values same(values.info());
-        same.apply(preset);
-        if (same == values) return &preset;
-    }
-    return nullptr;
-}
+}  // namespace
 
-void parameterPanel(ao::Values& values) {
+void drawParameters(ao::Values& values) {
     const ao::MethodInfo& info = values.info();
     const ao::Preset* current = presetOf(values);
     if (info.presets.size() > 0 && ImGui::BeginCombo("preset", current ? current->id : "(own)")) {
@@ -74,6 +66,8 @@ void parameterPanel(ao::Values& values) {
     }
 }
 
+namespace {
+
 void falloffPanel(ao::Falloff& falloff) {
     int kind = int(falloff.kind);
     if (ImGui::Combo("falloff", &kind, kFalloffNames, int(std::size(kFalloffNames)))) {
@@ -93,7 +87,10 @@ void viewPanel(Session& session) {
     const std::string current = session.view == render::View::pass ? "pass:" + session.passView : render::name(session.view);
     if (ImGui::BeginCombo("view", current.c_str(), ImGuiComboFlags_HeightLarge)) {
         for (const render::View view : render::kViews)
-            if (ImGui::Selectable(render::name(view), view == session.view)) session.view = view;
+            if (ImGui::Selectable(render::name(view), view == session.view)) {
+                session.view = view;
+                if (render::isDifference(view)) session.setComparing(true);
+            }
         ImGui::Separator();
         for (const std::string& name : session.passNames)
             if (ImGui::Selectable(("pass:" + name).c_str(), session.view == render::View::pass && name == session.passView)) {
@@ -198,7 +195,9 @@ void drawMain(Session& session) {
     if (ImGui::Begin("Obscura")) {
         ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
         methodMenu(session);
-        parameterPanel(session.choice.values());
+        drawParameters(session.choice.values());
+        ImGui::Separator();
+        drawComparison(session);
         ImGui::Separator();
         falloffPanel(session.choice.falloff);
         ImGui::Separator();
@@ -233,6 +232,7 @@ void drawKeys() {
 }
 
 void drawPanels(Session& session) {
+    if (session.comparing) drawDivider(session);
     noticeLine(session);
     errorPanel(session.engine.shaders().errors());
     if (session.showOverlay) {

@@ -48,6 +48,18 @@ nlohmann::ordered_json numbers(const app::Series& series) {
     return {{"name", series.name}, {"median", series.median()}, {"p95", series.p95()}, {"worst", series.worst()}};
 }
 
+nlohmann::ordered_json parametersOf(const ao::Values& values) {
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+    for (const ao::Parameter& parameter : values.info().parameters) parameters[parameter.id] = values[parameter.id];
+    return parameters;
+}
+
+std::string settingsText(const ao::Values& values) {
+    std::string text = values.info().id;
+    for (const ao::Parameter& parameter : values.info().parameters) text += fmt::format(" {}={:g}", parameter.id, values[parameter.id]);
+    return text;
+}
+
 }  // namespace
 
 std::string Report::table() const {
@@ -69,17 +81,15 @@ void Report::write(const std::filesystem::path& folder) const {
     const gpu::Caps& caps = engine.device().caps();
     const double mebi = 1.0 / (1024.0 * 1024.0);
     const Choice& choice = options.choice;
-    nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-    for (const ao::Parameter& parameter : choice.info().parameters) parameters[parameter.id] = choice.values()[parameter.id];
     nlohmann::ordered_json passes = nlohmann::ordered_json::array();
     for (const app::Series& pass : statistics.passes()) passes.push_back(numbers(pass));
-    const nlohmann::ordered_json timings{
+    nlohmann::ordered_json timings{
         {"device", caps.deviceName},
         {"software", caps.software},
         {"timestamps", caps.timestamps},
         {"scene", stage.info.name},
         {"method", choice.info().id},
-        {"parameters", parameters},
+        {"parameters", parametersOf(choice.values())},
         {"falloff", falloffText(choice.falloff)},
         {"width", options.size.width},
         {"height", options.size.height},
@@ -99,6 +109,7 @@ void Report::write(const std::filesystem::path& folder) const {
           {"warmUp", engine.started.warmUp},
           {"pipelineCacheFound", engine.started.cacheFound}}},
     };
+    if (options.compare) timings["compare"] = {{"method", options.compare->info().id}, {"parameters", parametersOf(options.compare->values())}, {"split", options.split}};
     app::writeFile(folder / "timings.json", timings.dump(2) + "\n");
 
     std::string page = fmt::format("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Obscura: {0}, {1}</title><style>{2}</style>\n<h1>{0}, {3}</h1>\n",
@@ -114,12 +125,11 @@ void Report::write(const std::filesystem::path& folder) const {
     for (const app::Series* total : {&statistics.gpu(), &statistics.cpu(), &statistics.frame()}) page += row(*total, 0.0);
     page += fmt::format("</table>\n<p>gpu: first to last timestamp of a frame; cpu: recording and submitting; frame: from one to the next, pictures "
                         "written included. {} frames, the first {} left out.</p>\n<h2>Facts</h2>\n<dl>\n", frames, dropped);
-    std::string set;
-    for (const ao::Parameter& parameter : choice.info().parameters) set += fmt::format("{}={:g} ", parameter.id, choice.values()[parameter.id]);
     const std::pair<const char*, std::string> rows[] = {
         {"device", caps.deviceName},
         {"picture", fmt::format("{} x {}, guard band {:g}", options.size.width, options.size.height, options.guard)},
-        {"method", fmt::format("{} {}", choice.info().id, set)},
+        {"method", settingsText(choice.values())},
+        {"right of the divider", options.compare ? settingsText(options.compare->values()) : "nothing else"},
         {"falloff", falloffText(choice.falloff)},
         {"scene", stage.file},
         {"triangles", fmt::format("{} ({} drawn, {} draws)", facts.triangles, facts.drawn, facts.draws)},

@@ -10,13 +10,18 @@ namespace obscura::game {
 
 namespace {
 
-constexpr float kFrame = 1.0f / 30.0f;  // what , and . step by, seconds
+constexpr float kFrame = 1.0f / 30.0f;   // what , and . step by, seconds
+constexpr float kGrab = 8.0f;            // screen units to either side of the divider
+constexpr float kDividerStep = 0.02f;    // of the width
 
 }  // namespace
 
 Session::Session(const Options& given, Stage& stage_, Engine& engine_)
-    : options(given), stage(stage_), engine(engine_), choice(given.choice), view(given.view), passView(given.passView), time(given.time),
+    : options(given), stage(stage_), engine(engine_), choice(given.choice), comparing(given.compare.has_value()), split(given.split),
+      differenceRange(given.differenceRange), view(given.view), passView(given.passView), time(given.time),
       exposure(given.exposure * stage_.info.exposure), guard(given.guard), m_lastMethod(given.choice.current()) {
+    if (given.compare) other = *given.compare;
+    else if (other.current() == choice.current()) other.selectNext(1);
     m_follow = options.camera;
     following = stage.moves(options.camera);
     if (!following) m_follow.kind = CameraChoice::Kind::flythrough;  // what L follows
@@ -47,6 +52,41 @@ void Session::stepTime(float seconds) {
     // One frame back or on is a movement like any other; histories stay good.
 }
 
+void Session::setComparing(bool on) {
+    comparing = on;
+    if (!on && render::isDifference(view)) view = render::View::final;
+}
+
+void Session::compareAct(Action action) {
+    if (action == Action::compare) return setComparing(!comparing), say(comparing ? "A | B" : "A alone");
+    if (!comparing) return say("C splits the picture first");
+    switch (action) {
+        case Action::nextOther: other.selectNext(1); return say(fmt::format("B: {}: {}", other.info().id, other.info().title));
+        case Action::swapSides: {
+            const ao::Falloff falloff = choice.falloff;  // is both sides'
+            std::swap(choice, other);
+            choice.falloff = falloff;
+            return;
+        }
+        case Action::copySide:
+            other = choice;
+            return say(fmt::format("B: {}", label(other.values())));
+        default: split = std::clamp(split + (action == Action::dividerLeft ? -kDividerStep : kDividerStep), 0.0f, 1.0f);
+    }
+}
+
+bool Session::dragDivider(const app::Window& window, bool onPanel) {
+    for (const app::Window::Click& click : window.clicked())
+        if (comparing && !onPanel && click.button == GLFW_MOUSE_BUTTON_LEFT && std::fabs(click.at.x - split * window.screenSize().x) <= kGrab) m_dragging = true;
+    m_dragging = m_dragging && comparing && window.button(GLFW_MOUSE_BUTTON_LEFT);
+    if (m_dragging) split = std::clamp(window.mouse().x / window.screenSize().x, 0.0f, 1.0f);
+    return m_dragging;
+}
+
+std::string Session::comparison() const {
+    return fmt::format("{} {} --falloff {} --split {:.3f}", asOptions(choice.values(), false), asOptions(other.values(), true), falloffText(choice.falloff), split);
+}
+
 void Session::act(Action action, int key) {
     switch (action) {
         case Action::quit: wantsQuit = true; break;
@@ -57,7 +97,9 @@ void Session::act(Action action, int key) {
         case Action::visibilityOnly: view = view == render::View::visibility ? render::View::final : render::View::visibility; break;
         case Action::nextView: {
             const auto at = std::find(std::begin(render::kViews), std::end(render::kViews), view);
-            view = at == std::end(render::kViews) || at + 1 == std::end(render::kViews) ? render::kViews[0] : at[1];
+            const auto next = std::find_if(at == std::end(render::kViews) ? at : at + 1, std::end(render::kViews),
+                                           [&](render::View v) { return comparing || !render::isDifference(v); });
+            view = next == std::end(render::kViews) ? render::kViews[0] : *next;
             say(fmt::format("view: {}", render::name(view)));
             break;
         }
@@ -80,6 +122,12 @@ void Session::act(Action action, int key) {
             say(fmt::format("{}: preset {}", choice.info().id, presets[next].id));
             break;
         }
+        case Action::compare:
+        case Action::nextOther:
+        case Action::swapSides:
+        case Action::copySide:
+        case Action::dividerLeft:
+        case Action::dividerRight: compareAct(action); break;
         case Action::pause: paused = !paused; break;
         case Action::stepBack: stepTime(-kFrame); break;
         case Action::stepForward: stepTime(kFrame); break;
@@ -139,6 +187,9 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.time = time;
     frame.method = &choice.values();
     frame.falloff = choice.falloff;
+    frame.compare = comparing ? &other.values() : nullptr;
+    frame.split = split;
+    frame.differenceRange = differenceRange;
     frame.view = view;
     frame.passView = passView;
     frame.exposure = exposure;

@@ -21,6 +21,9 @@ public:
     Stage& stage;
     Engine& engine;
     Choice choice;
+    Choice other;            // side B of the comparison; its falloff is not used
+    bool comparing = false;
+    float split = 0.5f, differenceRange = 0.25f;
     Player player;
     app::Statistics statistics{240};
 
@@ -45,6 +48,10 @@ public:
     render::FrameOptions frame(VkExtent2D size);
     void say(const std::string& line);
     void selectMethod(size_t index);
+    void setComparing(bool on);
+    // A divider that is grabbed follows the pointer; grabbed it can be where no panel lies. True while it is.
+    bool dragDivider(const app::Window& window, bool onPanel);
+    std::string comparison() const;  // as options of the command line
     void scrub(float to);    // jumps to a time
 
     // Rounds of the loop right after another method was chosen, against all others, milliseconds.
@@ -53,6 +60,8 @@ public:
 
 private:
     void stepTime(float seconds);
+    void compareAct(Action action);
+    bool m_dragging = false;
     scene::Camera m_camera;
     CameraChoice m_follow;
     size_t m_lastMethod;

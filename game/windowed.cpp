@@ -139,6 +139,7 @@ void Game::run() {
         m_session.wantsFullScreen = false;
         // Looking around begins outside the panels and then goes on wherever the hidden pointer is.
         const bool onPanel = m_overlay && m_overlay->wantsMouse();
+        m_session.dragDivider(m_window, onPanel);
         m_window.captureMouse(m_window.button(GLFW_MOUSE_BUTTON_RIGHT) && (m_window.mouseCaptured() || !onPanel));
 
         const double begun = app::now();
@@ -157,6 +158,7 @@ void Game::run() {
             m_session.measured(app::now() - begun);
         }
     }
+    if (m_session.comparing) fmt::print("compared: {}\n", m_session.comparison());
     m_engine.expect(m_engine.frames().wait(), "finishing the last frame");
     m_engine.capture().collect(true);
     if (!m_session.switches.values.empty())

@@ -40,6 +40,13 @@ void Statistics::addCpu(double recording, double frame) {
     push(m_frame, frame);
 }
 
+double Statistics::total(std::string_view prefix) const {
+    double sum = 0.0;
+    for (const Series& pass : m_passes)
+        if (pass.name.starts_with(prefix)) sum += pass.median();
+    return sum;
+}
+
 void Statistics::clear() {
     m_passes.clear();
     m_gpu.values.clear();

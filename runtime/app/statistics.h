@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/graph.h"
@@ -29,6 +30,7 @@ public:
     void clear();
 
     const std::vector<Series>& passes() const { return m_passes; }  // in the newest frame's order; gone ones are dropped
+    double total(std::string_view prefix) const;  // sum of the medians of passes whose names begin so
     const Series& gpu() const { return m_gpu; }      // first to last timestamp
     const Series& cpu() const { return m_cpu; }      // recording and submitting
     const Series& frame() const { return m_frame; }  // from one frame's begin to the next one's

@@ -59,6 +59,13 @@ std::unique_ptr<Window> Window::open(const char* title, int width, int height, s
         auto* self = static_cast<Window*>(glfwGetWindowUserPointer(handle));
         if (action != GLFW_RELEASE) self->m_pressed.push_back({key, action == GLFW_REPEAT});
     });
+    glfwSetCursorPosCallback(window->m_window, [](GLFWwindow* handle, double x, double y) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))->m_pointer = {float(x), float(y)};
+    });
+    glfwSetMouseButtonCallback(window->m_window, [](GLFWwindow* handle, int button, int action, int) {
+        auto* self = static_cast<Window*>(glfwGetWindowUserPointer(handle));
+        if (action == GLFW_PRESS) self->m_clicked.push_back({button, self->m_pointer});
+    });
     return window;
 }
 
@@ -84,6 +91,12 @@ VkExtent2D Window::size() const {
     return {uint32_t(std::max(width, 0)), uint32_t(std::max(height, 0))};
 }
 
+glm::vec2 Window::screenSize() const {
+    int width = 0, height = 0;
+    glfwGetWindowSize(m_window, &width, &height);
+    return {float(std::max(width, 1)), float(std::max(height, 1))};
+}
+
 float Window::scale() const {
     float x = 1.0f, y = 1.0f;
     glfwGetWindowContentScale(m_window, &x, &y);
@@ -92,6 +105,7 @@ float Window::scale() const {
 
 void Window::poll() {
     m_pressed.clear();
+    m_clicked.clear();
     glfwPollEvents();
     glm::dvec2 mouse;
     glfwGetCursorPos(m_window, &mouse.x, &mouse.y);

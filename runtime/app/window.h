@@ -35,6 +35,13 @@ public:
     const std::vector<Press>& pressed() const { return m_pressed; }  // since the last poll, GLFW key codes
     bool held(int key) const { return glfwGetKey(m_window, key) == GLFW_PRESS; }
     bool button(int button) const { return glfwGetMouseButton(m_window, button) == GLFW_PRESS; }
+    struct Click {
+        int button;
+        glm::vec2 at;  // screen units, from the upper left corner
+    };
+    const std::vector<Click>& clicked() const { return m_clicked; }  // buttons that went down since the last poll
+    glm::vec2 mouse() const { return m_mouse; }                      // screen units
+    glm::vec2 screenSize() const;                                    // screen units, at least 1
     glm::vec2 mouseMoved() const { return m_moved; }  // pixels since the last poll
     void captureMouse(bool on);  // hides it; its movements go on without bounds
     bool mouseCaptured() const { return m_captured; }
@@ -45,6 +52,8 @@ private:
     Window() = default;
     GLFWwindow* m_window = nullptr;
     std::vector<Press> m_pressed;
+    std::vector<Click> m_clicked;
+    glm::vec2 m_pointer{0.0f};  // at the last event, where a click that is already over was
     glm::dvec2 m_mouse{0.0};
     glm::vec2 m_moved{0.0f};
     bool m_captured = false;

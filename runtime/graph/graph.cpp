@@ -99,6 +99,7 @@ Graph::~Graph() {
 
 void Graph::begin() {
     m_recording = {};
+    m_prefix.clear();
     m_passes.clear();
     m_physical.clear();
     m_histories.clear();
@@ -243,7 +244,7 @@ Pass& Graph::pass(std::string name, gpu::Program& program) {
 }
 
 Pass& Graph::pass(std::string name) {
-    m_recording.passes.push_back({std::move(name), {}, false});
+    m_recording.passes.push_back({m_prefix + name, {}, false});
     Pass& result = m_passes.emplace_back();
     result.m_graph = this;
     result.m_index = uint32_t(m_passes.size() - 1);

@@ -147,6 +147,8 @@ public:
 
     Pass& pass(std::string name, gpu::Program& program);
     Pass& pass(std::string name);
+    // Names of passes declared from here on begin with this, until the next begin(): two runs of a method in one frame stay apart.
+    void prefix(std::string text) { m_prefix = std::move(text); }
     void output(ImageId image);                            // keep what writes it
 
     // Records everything. Status::invalid (with a log line) when the recording contradicts itself or the shaders.
@@ -185,6 +187,7 @@ private:
     Recording m_recording;
     Plan m_plan;
     std::deque<Pass> m_passes;
+    std::string m_prefix;                                  // of pass names
     std::vector<Physical> m_physical;
     std::vector<PoolImage> m_pool;
     std::vector<PoolBuffer> m_buffers;

@@ -17,10 +17,12 @@ namespace obscura::render {
 using gpu::Status;
 
 struct Renderer::Impl {
-    Impl(gpu::Device& d, const gpu::ShaderLibrary& shaders) : device(d), library(d, shaders) {}
+    Impl(gpu::Device& d, const gpu::ShaderLibrary& s) : device(d), shaders(s), library(d, s) {}
 
     gpu::Device& device;
+    const gpu::ShaderLibrary& shaders;
     ao::Library library;
+    std::unique_ptr<ao::Library> other;      // of the second side; null until one is wanted
     std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;  // null: could not be uploaded, said once
     uint32_t modelSerial = 0;
     Actors actors;
@@ -43,6 +45,8 @@ struct Renderer::Impl {
     }
     Status load(const scene::World& world);
     CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const;
+    ao::Library& otherSide();
+    ao::Inputs obscurance(graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out);
     void count(const scene::World& world);
 };
 
@@ -98,6 +102,7 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
 }
 
 ao::Library& Renderer::library() { return m_impl->library; }
+ao::Library& Renderer::otherLibrary() { return m_impl->otherSide(); }
 SceneFacts Renderer::facts() const { return m_impl->facts; }
 const voxel::Voxels* Renderer::voxels() const { return m_impl->voxels.voxels(); }
 Status Renderer::load(const scene::World& world) { return m_impl->load(world); }
@@ -148,6 +153,32 @@ CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size,
     return pair;
 }
 
+ao::Library& Renderer::Impl::otherSide() {
+    if (!other) other = std::make_unique<ao::Library>(device, shaders);
+    return *other;
+}
+
+// Both sides prepare their inputs and keep their histories for themselves: the time of a side's passes is what it would cost alone.
+ao::Inputs Renderer::Impl::obscurance(graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out) {
+    ao::Inputs prepared;
+    const auto run = [&](ao::Library& of, const ao::Values& values, ao::Inputs* inputs) {
+        const graph::ImageId visibility = of.add(graph, frame, sources, options.falloff, values, inputs);
+        return visibility ? visibility : ao::allOpen(graph, options.visible, "no visibility");  // the library has said why
+    };
+    if (!options.compare) {
+        if (other) other->reset();  // whatever it remembers will be old when it is wanted again
+        out.visibility = out.sides[0] = run(library, *options.method, &prepared);
+        return prepared;
+    }
+    graph.prefix("A.");
+    out.sides[0] = run(library, *options.method, &prepared);
+    graph.prefix("B.");
+    out.sides[1] = run(otherSide(), *options.compare, nullptr);
+    graph.prefix("");
+    out.visibility = views.split(graph, out.sides[0], out.sides[1], options.split);
+    return prepared;
+}
+
 void Renderer::Impl::count(const scene::World& world) {
     facts = {};
     facts.triangles = draws.triangles;
@@ -167,6 +198,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     const bool cut = options.cut || !impl.lastCamera;
     if (cut) {
         impl.library.reset();
+        if (impl.other) impl.other->reset();
         impl.frame = 0;
     }
     const VkExtent2D guard = guardOf(options);
@@ -185,18 +217,15 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     const GBuffer g = impl.gbuffer.add(graph, size, frame, items, impl.draws, posed, impl.materials);
 
     ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
-    ao::Inputs prepared;
     ao::Sources sources{g.depth, g.geometric, g.motion};
-    if (options.method->info().needs & ao::kVolume)
+    if ((options.method->info().needs | (options.compare ? options.compare->info().needs : 0)) & ao::kVolume)
         sources.volume = impl.voxels.add(graph, world, options.time, options.camera, options.voxels, !options.skipMasked, aoFrame.volume);
-    graph::ImageId visibility = impl.library.add(graph, aoFrame, sources, options.falloff, *options.method, &prepared);
-    if (!visibility) visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has said why
+    Outputs out;
+    const ao::Inputs prepared = impl.obscurance(graph, aoFrame, sources, options, out);
     shared::View view{};
     const char* reason = nullptr;
     ao::viewOf(aoFrame, view, reason);
 
-    Outputs out;
-    out.visibility = visibility;
     out.depth = g.depth;
     out.linearDepth = prepared.depth;
     out.normals = g.geometric;
@@ -204,7 +233,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     if (options.view == View::final || options.view == View::pass) {
         Lighting::Inputs in;
         in.gbuffer = g;
-        in.visibility = visibility;
+        in.visibility = out.visibility;
         in.view = view;
         in.eyeFromWorld = camera.view;
         in.sun = options.sun;
@@ -225,7 +254,9 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
             if (shown) out.color = shown;
         }
     }
-    if (!out.color) out.color = impl.views.add(graph, options.view, g, visibility, view);
+    if (isDifference(options.view) && out.sides[1])
+        out.color = impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
+    if (!out.color) out.color = impl.views.add(graph, options.view, g, out.visibility, view);
     return out;
 }
 

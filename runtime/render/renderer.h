@@ -15,13 +15,18 @@
 namespace obscura::render {
 
 enum class View : uint8_t {
-    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, pass
+    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signedDifference, pass
 };
 // "final", "visibility", ... and "pass:NAME" (what the graph's pass NAME wrote); false when unknown.
 bool parseView(const std::string& text, View& view, std::string& pass);
 const char* name(View view);
 inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
-                                  View::baseColor, View::roughness, View::metalness, View::emission};
+                                  View::baseColor, View::roughness, View::metalness, View::emission, View::difference, View::signedDifference};
+// Of two methods' visibility; where only one is run they show that one's.
+constexpr bool isDifference(View view) { return view == View::difference || view == View::signedDifference; }
+
+// The first column right of a divider, of a picture so many pixels wide.
+uint32_t dividerColumn(float split, uint32_t width);
 
 struct Sun {
     glm::vec3 direction{0.35f, -1.0f, 0.25f};  // the way light travels, world; any length
@@ -37,6 +42,11 @@ struct FrameOptions {
     float time = 0.0f;                // seconds, of the world's animations
     const ao::Values* method = nullptr;  // names the method; never null
     ao::Falloff falloff;
+    // A second setting B beside `method`, A, on the same frame with the same falloff, histories of its own: A is shown left of the
+    // divider, B right of it. "A." and "B." then stand before the names of their passes. Null: none, and nothing is spent on it.
+    const ao::Values* compare = nullptr;
+    float split = 0.5f;               // where the divider stands, fraction of the width
+    float differenceRange = 0.25f;    // difference of visibility at which the difference views end
     View view = View::final;
     std::string passView;             // for View::pass
     Voxelization voxels;              // for methods that need a volume
@@ -51,7 +61,8 @@ struct FrameOptions {
 
 struct Outputs {
     graph::ImageId color;       // what `view` asks for, R8G8B8A8_UNORM holding sRGB-encoded values, visible size
-    graph::ImageId visibility;  // R16F, visible size, of the method
+    graph::ImageId visibility;  // R16F, visible size, of the method, or of both as the divider shows them
+    graph::ImageId sides[2];    // likewise, of A and of B alone (none where nothing is compared)
     // Guard band included:
     graph::ImageId depth;           // D32, reversed infinite device depth
     graph::ImageId linearDepth;     // R32F, -z in metres, ao's sky value where nothing is
@@ -78,6 +89,7 @@ public:
     Outputs add(graph::Graph& graph, const scene::World& world, const FrameOptions& options);
 
     ao::Library& library();
+    ao::Library& otherLibrary();  // of B; made when first asked for
     SceneFacts facts() const;  // of the last add()
     const voxel::Voxels* voxels() const;  // null until a method has needed a volume
 

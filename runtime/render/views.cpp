@@ -1,12 +1,15 @@
 #include "render/views.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "post/view.h"
 
 namespace obscura::render {
 namespace {
 
 constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion",
-                                  "base-color", "roughness", "metalness", "emission", "pass"};
+                                  "base-color", "roughness", "metalness", "emission", "difference", "signed-difference", "pass"};
 
 // How to show an image of which only the format is known.
 uint32_t modeOf(VkFormat format, const std::string& name) {
@@ -31,6 +34,8 @@ uint32_t modeOf(VkFormat format, const std::string& name) {
 
 }  // namespace
 
+uint32_t dividerColumn(float split, uint32_t width) { return uint32_t(std::lround(std::clamp(split, 0.0f, 1.0f) * float(width))); }
+
 const char* name(View view) { return kNames[size_t(view)]; }
 
 bool parseView(const std::string& text, View& view, std::string& pass) {
@@ -48,8 +53,11 @@ bool parseView(const std::string& text, View& view, std::string& pass) {
 }
 
 gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Views& out) {
-    const gpu::Status status = gpu::Program::compute(device, shaders, "post/view_float.comp", {}, out.m_float);
-    return status == gpu::Status::ok ? gpu::Program::compute(device, shaders, "post/view_uint.comp", {}, out.m_uint) : status;
+    gpu::Status status = gpu::Program::compute(device, shaders, "post/view_float.comp", {}, out.m_float);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/view_uint.comp", {}, out.m_uint);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp", {}, out.m_split);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/difference.comp", {}, out.m_difference);
+    return status;
 }
 
 graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame) {
@@ -85,6 +93,22 @@ graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, grap
         case View::emission: return show(graph, g.emission, shared::kViewColor, frame);
         default: return show(graph, visibility, shared::kViewGrey, frame);
     }
+}
+
+graph::ImageId Views::split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider) {
+    const gpu::ImageDesc desc = graph.desc(a);
+    const shared::SplitBlock block{{desc.width, desc.height}, dividerColumn(divider, desc.width), 0};
+    const graph::ImageId both = graph.image("split visibility", {VK_FORMAT_R16_SFLOAT, desc.width, desc.height});
+    graph.pass("split", m_split).read(a).read(b).write(both).constants(block).dispatch(desc.width, desc.height);
+    return both;
+}
+
+graph::ImageId Views::difference(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float range, bool withSign) {
+    const gpu::ImageDesc desc = graph.desc(a);
+    const shared::DifferenceBlock block{{desc.width, desc.height}, 1.0f / std::max(range, 1e-6f), withSign ? 1u : 0u};
+    const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, desc.width, desc.height});
+    graph.pass("difference", m_difference).read(a).read(b).write(picture).constants(block).dispatch(desc.width, desc.height);
+    return picture;
 }
 
 graph::ImageId Views::addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame) {

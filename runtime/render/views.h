@@ -16,10 +16,14 @@ public:
     graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, graph::ImageId visibility, const shared::View& frame);
     // What the pass of that name wrote first; none when no such pass has been added or its image cannot be shown.
     graph::ImageId addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame);
+    // Of two sides' visibility, visible size: A left of the divider and B right of it, R16F; or their difference as a picture,
+    // |A - B| / range as grey or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is darker).
+    graph::ImageId split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider);
+    graph::ImageId difference(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float range, bool withSign);
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
-    gpu::Program m_float, m_uint;
+    gpu::Program m_float, m_uint, m_split, m_difference;
 };
 
 }  // namespace obscura::render

@@ -14,6 +14,20 @@ struct ViewBlock {
 };
 OBSCURA_SHARED_SIZE(ViewBlock, 48);
 
+struct SplitBlock {
+    uvec2 visible;
+    uint divider;    // first column of the right side
+    uint unused;
+};
+OBSCURA_SHARED_SIZE(SplitBlock, 16);
+
+struct DifferenceBlock {
+    uvec2 visible;
+    float scale;     // 1 / the difference at which colours end
+    uint withSign;   // 0: grey, of either sign
+};
+OBSCURA_SHARED_SIZE(DifferenceBlock, 16);
+
 #ifdef __cplusplus
 inline constexpr
 #else

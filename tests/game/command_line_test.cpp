@@ -52,6 +52,12 @@ TEST(CommandLine, BadOptionsEndInOneLine) {
         {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target"}},
         {{"--camera", "scene:x"}, {"scene:N"}},
         {{"--json"}, {"--json", "--list-methods"}},
+        {{"--compare", "hbaoo"}, {"--compare hbaoo: no such method", "did you mean hbao?"}},
+        {{"--compare", "hbao:lovely"}, {"--compare hbao:lovely: hbao has no such preset", "default"}},
+        {{"--compare", "hbao:8x4,steps=0.5"}, {"--compare hbao:8x4,steps=0.5", "whole number"}},
+        {{"--compare", "hbao,"}, {"--compare hbao,", "METHOD.PARAMETER=VALUE"}},
+        {{"--split", "1.5"}, {"--split", "1.5"}},
+        {{"--view", "difference"}, {"--view difference", "--compare"}},
         {{"--validation", "full"}, {"--validation", "full"}},
         {{"--time", "soon"}, {"--time", "soon"}},
     };
@@ -113,7 +119,7 @@ TEST(CommandLine, HelpIsComplete) {
     EXPECT_EQ(ran.code, 0);
     for (const char* word : {"--headless", "--frames", "--size", "--scene", "--method", "--set", "--falloff", "--time", "--view", "--screenshot", "--out",
                              "--list-methods", "--json", "--device", "--guard", "--preset", "--validation", "--flythrough", "--camera", "--eye",
-                             "--switch-test", "Keys:", "F11", "Tab", "1..9"})
+                             "--switch-test", "--compare", "--split", "--difference-range", "Keys:", "F11", "Tab", "1..9"})
         EXPECT_NE(ran.out.find(word), std::string::npos) << word;
 }
 

@@ -4,15 +4,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "post/false_colour.h"
+
 namespace obscura::evaluate {
 
 namespace {
-
-struct Stop {
-    float at, r, g, b;
-};
-constexpr Stop kDark[] = {{0.0f, 12, 12, 16}, {0.5f, 32, 96, 200}, {1.0f, 190, 225, 255}};
-constexpr Stop kBright[] = {{0.0f, 12, 12, 16}, {0.5f, 208, 88, 16}, {1.0f, 255, 226, 170}};
 
 uint8_t byteOf(float value) { return uint8_t(std::lround(std::clamp(value, 0.0f, 255.0f))); }
 
@@ -30,12 +26,12 @@ app::Picture paint(const truth::Plane& plane, Colour colour) {
 }  // namespace
 
 Rgb errorColour(float error, float range) {
-    const Stop* stops = error < 0.0f ? kDark : kBright;
-    const float t = std::min(std::fabs(error) / range, 1.0f);
-    const Stop& a = t < stops[1].at ? stops[0] : stops[1];
-    const Stop& b = t < stops[1].at ? stops[1] : stops[2];
-    const float s = (t - a.at) / (b.at - a.at);
-    return {byteOf(a.r + s * (b.r - a.r)), byteOf(a.g + s * (b.g - a.g)), byteOf(a.b + s * (b.b - a.b))};
+    const auto& stops = error < 0.0f ? shared::kBelow : shared::kAbove;
+    const float t = 2.0f * std::min(std::fabs(error) / range, 1.0f);
+    const auto& low = stops[t < 1.0f ? 0 : 1];
+    const auto& high = stops[t < 1.0f ? 1 : 2];
+    const auto mixed = [&](int channel) { return byteOf(low[channel] + (t < 1.0f ? t : t - 1.0f) * (high[channel] - low[channel])); };
+    return {mixed(0), mixed(1), mixed(2)};
 }
 
 app::Picture greyPicture(const truth::Plane& visibility) {

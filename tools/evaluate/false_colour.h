@@ -9,9 +9,8 @@ namespace obscura::evaluate {
 inline constexpr float kErrorRange = 0.25f;  // error at which the colours end
 
 struct Rgb { uint8_t r, g, b; };
-// Of an error A - R of visibility: black where there is none, through blue to pale where the picture is too dark, through
-// orange to pale where it is too bright. Both arms gain lightness alike, so that the sign never hides the size, and the
-// two hues stay apart for the colour-blind. page/gallery.js has the same ramp.
+// Of an error A - R of visibility, in the ramp of shaders/post/false_colour.h: blue where the picture is too dark, orange where it is
+// too bright. page/gallery.js has the same ramp.
 Rgb errorColour(float error, float range = kErrorRange);
 
 app::Picture greyPicture(const truth::Plane& visibility);  // byte = 255 * value: numbers, not light
