@@ -8,6 +8,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
+#include "app/voxel_arguments.h"
 #include "keys.h"
 #include "scene/hash.h"
 
@@ -89,10 +90,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, beside the scene's own")->group(kPicture)->check(CLI::Range(0u, 64u))->capture_default_str();
     cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")->group(kPicture);
 
-    cli.add_option("--voxels", options.voxels.cells, "Cells a side of the voxel window, for methods that trace voxels")
-        ->group(kPicture)->check(CLI::IsMember({64u, 128u, 256u, 512u}))->capture_default_str();
-    cli.add_option("--voxel-size", options.voxels.cellSize, "Metres a cell; 0: the scene's longest side fills the window, at most 0.14")
-        ->group(kPicture)->check(CLI::Range(0.0f, 1000.0f))->capture_default_str();
+    app::addVoxelArguments(cli, options.voxels, kPicture);
 
     const char* kCamera = "Camera";
     auto* cameraOption = cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")->group(kCamera);

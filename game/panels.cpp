@@ -2,10 +2,13 @@
 #include "panels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include <fmt/format.h>
 #include <imgui.h>
+
+#include "app/voxel_arguments.h"
 
 namespace obscura::game {
 
@@ -105,6 +108,16 @@ void viewPanel(Session& session) {
     tip("How far buffers reach beyond the picture, as a fraction of each side: occluders just outside still count. Costs their pixels.");
 }
 
+void voxelPanel(render::Voxelization& voxels) {
+    int voxelizer = int(voxels.voxelizer), shell = int(voxels.shell), side = std::countr_zero(voxels.cells) - 6;
+    if (ImGui::Combo("voxelizer", &voxelizer, app::kVoxelizerNames, int(std::size(app::kVoxelizerNames)))) voxels.voxelizer = render::Voxelizer(voxelizer);
+    tip("openvdb: what rests is made once and kept, objects are redone as they move, on a thread of its own. gpu: everything, every frame.");
+    if (ImGui::Combo("voxel shell", &shell, app::kShellNames, int(std::size(app::kShellNames)))) voxels.shell = voxel::Shell(shell);
+    tip("conservative: each cell that a surface touches. thin: as few as stop a path over cell faces; short rays miss some.");
+    if (ImGui::Combo("voxel window", &side, "64\000128\000256\000512\0")) voxels.cells = 64u << side;
+    tip("Cells a side of the cube around the camera that the GPU holds.");
+}
+
 void timePanel(Session& session) {
     if (ImGui::Button(session.paused ? "go on" : " pause")) session.act(Action::pause, 0);
     ImGui::SameLine();
@@ -202,6 +215,7 @@ void drawMain(Session& session) {
         falloffPanel(session.choice.falloff);
         ImGui::Separator();
         viewPanel(session);
+        if (session.choice.info().needs & ao::kVolume) voxelPanel(session.voxels);
         ImGui::Separator();
         timePanel(session);
         ImGui::Separator();

@@ -19,7 +19,7 @@ constexpr float kDividerStep = 0.02f;    // of the width
 Session::Session(const Options& given, Stage& stage_, Engine& engine_)
     : options(given), stage(stage_), engine(engine_), choice(given.choice), comparing(given.compare.has_value()), split(given.split),
       differenceRange(given.differenceRange), view(given.view), passView(given.passView), time(given.time),
-      exposure(given.exposure * stage_.info.exposure), guard(given.guard), m_lastMethod(given.choice.current()) {
+      exposure(given.exposure * stage_.info.exposure), guard(given.guard), voxels(given.voxels), m_lastMethod(given.choice.current()) {
     if (given.compare) other = *given.compare;
     else if (other.current() == choice.current()) other.selectNext(1);
     m_follow = options.camera;
@@ -195,7 +195,7 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.exposure = exposure;
     frame.cut = cut;
     frame.skipMasked = options.skipMasked;
-    frame.voxels = options.voxels;
+    frame.voxels = voxels;
     frame.voxels.exact = false;  // a frame behind, and no hitch
     cut = false;
     return frame;

@@ -32,6 +32,7 @@ public:
     float time = 0.0f;       // seconds, of the world
     float pace = 1.0f;       // world seconds a second
     float exposure = 1.0f, guard = 0.1f;
+    render::Voxelization voxels;
     bool paused = false;
     bool following = false;  // the camera moves by itself: flythrough, path or lens
     bool cut = true;         // the next frame's camera or time jumped

@@ -16,41 +16,6 @@ Status Deform::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, De
     return gpu::Program::compute(device, shaders, "scene/deform.comp", {}, out.m_program);
 }
 
-Deform::~Deform() {
-    for (auto& [model, rest] : m_rest) m_device->release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, rest.pool);
-}
-
-void Deform::forget(const ModelGpu& model) {
-    const auto found = m_rest.find(&model);
-    if (found == m_rest.end()) return;
-    m_device->release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, found->second.pool);
-    m_rest.erase(found);
-}
-
-VkDescriptorSet Deform::restOf(const ModelGpu& model) {
-    Rest& rest = m_rest[&model];
-    if (rest.set != VK_NULL_HANDLE) return rest.set;
-    const gpu::Api& vk = m_device->vk();
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3};
-    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = 1;
-    info.poolSizeCount = 1;
-    info.pPoolSizes = &size;
-    if (rest.pool == VK_NULL_HANDLE && vk.CreateDescriptorPool(m_device->handle(), &info, m_device->allocator(), &rest.pool) != VK_SUCCESS) return VK_NULL_HANDLE;
-    const VkDescriptorSetLayout layout = m_program.setLayout(1);
-    const VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, rest.pool, 1, &layout};
-    if (vk.AllocateDescriptorSets(m_device->handle(), &allocate, &rest.set) != VK_SUCCESS) {
-        rest.set = VK_NULL_HANDLE;
-        return VK_NULL_HANDLE;
-    }
-    const VkDescriptorBufferInfo buffers[] = {{model.rest.handle(), 0, VK_WHOLE_SIZE}, {model.influences.handle(), 0, VK_WHOLE_SIZE},
-                                              {model.targets.handle(), 0, VK_WHOLE_SIZE}};
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, rest.set, 0, 0, 3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-    write.pBufferInfo = buffers;
-    vk.UpdateDescriptorSets(m_device->handle(), 1, &write, 0, nullptr);
-    return rest.set;
-}
-
 // Larger buffers that hold what the old ones did: nobody else's history is lost when an instance joins. Posed frames have
 // no history, but those of a pose at rest are not written again either, so the last ones are moved too.
 Status Deform::grow(graph::Graph& graph, uint32_t vertices) {
@@ -104,7 +69,8 @@ Deform::Posed Deform::add(graph::Graph& graph, const Actors& actors) {
             const ModelGpu* bound = nullptr;
             for (const Actors::Job& job : actors.jobs()) {
                 if (job.model != bound) {
-                    const VkDescriptorSet set = restOf(*job.model);
+                    const VkDescriptorSet set = m_rest.of(*m_device, m_program.setLayout(1), *job.model,
+                                                           {&job.model->rest, &job.model->influences, &job.model->targets});
                     if (set == VK_NULL_HANDLE) continue;
                     c.device.vk().CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c.program->layout(), 1, 1, &set, 0, nullptr);
                     bound = job.model;

@@ -2,21 +2,16 @@
 // buffers take turns, so that last frame's stay for motion vectors.
 #pragma once
 
-#include <map>
-
 #include "graph/graph.h"
 #include "render/actors.h"
 #include "render/draw_list.h"
+#include "render/model_sets.h"
 
 namespace obscura::render {
 
 class Deform {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Deform& out);
-    ~Deform();
-    Deform() = default;
-    Deform(const Deform&) = delete;
-    Deform& operator=(const Deform&) = delete;
 
     struct Posed {
         graph::BufferId now, before, frames;
@@ -24,11 +19,10 @@ public:
     };
     // `actors` must keep its jobs until the graph has run.
     Posed add(graph::Graph& graph, const Actors& actors);
-    void forget(const ModelGpu& model);
+    void forget(const ModelGpu& model) { m_rest.forget(model); }
 
 private:
     gpu::Status grow(graph::Graph& graph, uint32_t vertices);
-    VkDescriptorSet restOf(const ModelGpu& model);
 
     gpu::Device* m_device = nullptr;
     gpu::Program m_program;
@@ -36,8 +30,7 @@ private:
     uint32_t m_capacity = 0;    // vertices
     uint32_t m_current = 0;
     graph::BufferId m_ids[3];   // this frame's: positions 0 and 1, frames
-    struct Rest { VkDescriptorPool pool = VK_NULL_HANDLE; VkDescriptorSet set = VK_NULL_HANDLE; };
-    std::map<const ModelGpu*, Rest> m_rest;
+    ModelSets m_rest;
 };
 
 }  // namespace obscura::render

@@ -192,8 +192,8 @@ Status ModelGpu::create(gpu::Device& device, std::shared_ptr<const scene::Model>
         out.geometryBytes += blob.bytes.size();
         return fill(device, blob.bytes, usage, model.name + "/" + what, buffer);
     };
-    Status status = made(vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertices", out.vertices);
-    if (status == Status::ok) status = made(indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices", out.indices);
+    Status status = made(vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "vertices", out.vertices);
+    if (status == Status::ok) status = made(indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "indices", out.indices);
     if (status == Status::ok) status = made(rest, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "rest", out.rest);
     if (status == Status::ok) status = made(influences, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "influences", out.influences);
     if (status == Status::ok) status = made(targets, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "targets", out.targets);

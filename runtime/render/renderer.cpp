@@ -96,6 +96,7 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
     if (status == Status::ok) status = Shadow::create(device, shaders, impl.shadow);
     if (status == Status::ok) status = Lighting::create(device, shaders, impl.lighting);
     if (status == Status::ok) status = Views::create(device, shaders, impl.views);
+    if (status == Status::ok) status = VoxelVolume::create(device, shaders, impl.voxels);
     if (status == Status::ok) return renderer;
     device.log(gpu::Severity::error, std::string("render: the renderer cannot be made: ") + gpu::name(status));
     return nullptr;
@@ -115,6 +116,7 @@ Status Renderer::Impl::load(const scene::World& world) {
         if (it->second) {
             materials.forget(*it->second);
             deform.forget(*it->second);
+            voxels.forget(*it->second);
         }
         it = models.erase(it);
     }
@@ -218,8 +220,11 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
 
     ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
     ao::Sources sources{g.depth, g.geometric, g.motion};
-    if ((options.method->info().needs | (options.compare ? options.compare->info().needs : 0)) & ao::kVolume)
-        sources.volume = impl.voxels.add(graph, world, options.time, options.camera, options.voxels, !options.skipMasked, aoFrame.volume);
+    const uint32_t needs = options.method->info().needs | (options.compare ? options.compare->info().needs : 0);
+    if (needs & ao::kVolume) {
+        const VoxelVolume::Scene scene{world, options.time, options.camera, impl.actors.drawables(), posed, !options.skipMasked};
+        sources.volume = impl.voxels.add(graph, scene, options.voxels, aoFrame.volume);
+    }
     Outputs out;
     const ao::Inputs prepared = impl.obscurance(graph, aoFrame, sources, options, out);
     shared::View view{};
@@ -230,6 +235,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     out.linearDepth = prepared.depth;
     out.normals = g.geometric;
     out.motion = g.motion;
+    out.voxels = sources.volume;
     if (options.view == View::final || options.view == View::pass) {
         Lighting::Inputs in;
         in.gbuffer = g;

@@ -68,6 +68,7 @@ struct Outputs {
     graph::ImageId linearDepth;     // R32F, -z in metres, ao's sky value where nothing is
     graph::ImageId normals;         // R32UI, packNormal(): geometric, eye space
     graph::ImageId motion;          // RG16F, px to last frame's position
+    graph::BufferId voxels;         // bits of the volume, as shared/volume.h has them; none where the method needs none
 };
 
 struct SceneFacts {

@@ -19,48 +19,53 @@ std::vector<VkBufferCopy> copies(const std::vector<uint32_t>& addresses, uint64_
 
 }  // namespace
 
-graph::BufferId VoxelVolume::add(graph::Graph& graph, const scene::World& world, float time, const scene::Camera& camera, const Voxelization& how,
-                                 bool masked, ao::Volume& volume) {
-    gpu::Device& device = graph.device();
-    if (!m_voxels || how.cells != m_how.cells || how.cellSize != m_how.cellSize || how.cache != m_how.cache || masked != m_masked) {
-        m_voxels = std::make_unique<voxel::Voxels>(voxel::Options{
-            .cells = how.cells, .cellSize = double(how.cellSize), .masked = masked, .cache = how.cache,
-            .say = [&device](const std::string& line) { device.log(gpu::Severity::warning, line); }});
-        m_bits = {};
-        m_how = how;
-        m_masked = masked;
-    }
-    const voxel::Change& change = m_voxels->update(world, time, camera.eye, how.exact ? voxel::Voxels::Wait::exact : voxel::Voxels::Wait::latest);
-    if (change.cells == 0) return {};
+graph::BufferId VoxelVolume::upload(graph::Graph& graph, const voxel::Change& change) {
     const uint64_t bytes = uint64_t(change.cells) * change.cells * change.cells / 8;
     std::vector<Brick> first;
     if (!m_bits) {  // a new buffer is filled whole, zeros and all
-        if (gpu::Buffer::create(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "voxels", m_bits) != gpu::Status::ok)
+        if (gpu::Buffer::create(graph.device(), bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "voxels", m_bits) != gpu::Status::ok)
             return {};
         first.resize(bytes / sizeof(Brick));
         for (size_t i = 0; i < change.addresses.size(); ++i) first[change.addresses[i]] = change.bricks[i];
     }
     const graph::BufferId bits = graph.import("voxels", m_bits, graph::Graph::Shared::written);
     const std::vector<Brick>& sent = first.empty() ? change.bricks : first;
-    if (!sent.empty()) {
-        const graph::BufferId staged = graph.upload("voxel bricks", sent.data(), sent.size() * sizeof(Brick));
-        std::vector<VkBufferCopy> regions = first.empty() ? copies(change.addresses, 0) : std::vector<VkBufferCopy>{{0, 0, bytes}};
-        graph.pass("voxels.upload").use(staged, graph::Access::transferRead).use(bits, graph::Access::transferWrite)
-            .record([staged, bits, regions = std::move(regions)](const graph::PassContext& c) mutable {
-                const graph::ExternalBuffer from = c.buffer(staged), to = c.buffer(bits);
-                for (VkBufferCopy& region : regions) region.srcOffset += from.offset;
-                c.device.vk().CmdCopyBuffer(c.cmd, from.buffer, to.buffer, uint32_t(regions.size()), regions.data());
-            });
+    if (sent.empty()) return bits;
+    const graph::BufferId staged = graph.upload("voxel bricks", sent.data(), sent.size() * sizeof(Brick));
+    std::vector<VkBufferCopy> regions = first.empty() ? copies(change.addresses, 0) : std::vector<VkBufferCopy>{{0, 0, bytes}};
+    graph.pass("voxels.upload").use(staged, graph::Access::transferRead).use(bits, graph::Access::transferWrite)
+        .record([staged, bits, regions = std::move(regions)](const graph::PassContext& c) mutable {
+            const graph::ExternalBuffer from = c.buffer(staged), to = c.buffer(bits);
+            for (VkBufferCopy& region : regions) region.srcOffset += from.offset;
+            c.device.vk().CmdCopyBuffer(c.cmd, from.buffer, to.buffer, uint32_t(regions.size()), regions.data());
+        });
+    return bits;
+}
+
+graph::BufferId VoxelVolume::add(graph::Graph& graph, const Scene& scene, const Voxelization& how, ao::Volume& volume) {
+    gpu::Device& device = graph.device();
+    const auto unlike = [&](auto Voxelization::* field) { return how.*field != m_how.*field; };
+    if (!m_voxels || unlike(&Voxelization::voxelizer) || unlike(&Voxelization::shell) || unlike(&Voxelization::cells) || unlike(&Voxelization::cellSize) ||
+        unlike(&Voxelization::cache) || scene.masked != m_masked) {
+        m_voxels = std::make_unique<voxel::Voxels>(voxel::Options{
+            .cells = how.cells, .cellSize = double(how.cellSize), .masked = scene.masked, .shell = how.shell, .bits = how.voxelizer == Voxelizer::openvdb,
+            .cache = how.cache, .say = [&device](const std::string& line) { device.log(gpu::Severity::warning, line); }});
+        m_bits = {};
+        m_how = how;
+        m_masked = scene.masked;
     }
+    const voxel::Change& change = m_voxels->update(scene.world, scene.time, scene.camera.eye, how.exact ? voxel::Voxels::Wait::exact : voxel::Voxels::Wait::latest);
+    if (change.cells == 0) return {};
     volume.cells = change.cells;
-    const glm::dmat4 worldFromEye = glm::inverse(glm::dmat4(camera.view()));
+    const glm::dmat4 worldFromEye = glm::inverse(glm::dmat4(scene.camera.view()));
     glm::mat4 cellFromEye(1.0f);
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 3; ++row)
             cellFromEye[column][row] = float(worldFromEye[column][row] / change.cellSize - (column == 3 ? double(change.origin[row]) - 0.5 : 0.0));
     for (int axis = 0; axis < 3; ++axis) volume.origin[axis] = change.origin[axis];
     std::memcpy(volume.cellFromEye, &cellFromEye, sizeof(volume.cellFromEye));
-    return bits;
+    if (how.voxelizer == Voxelizer::gpu) return m_raster.add(graph, scene.drawables, scene.posed, change, scene.masked, how.shell);
+    return upload(graph, change);
 }
 
 }  // namespace obscura::render

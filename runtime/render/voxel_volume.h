@@ -1,15 +1,21 @@
-// The voxels' copy on the GPU: follows runtime/voxel's window and uploads what changed in it, brick by brick.
+// The volume that methods trace, as the GPU has it: the window of runtime/voxel, uploaded brick by brick as it changes, or
+// rasterised on the GPU where the window stands.
 #pragma once
 
 #include "ao/prepare.h"
 #include "graph/graph.h"
+#include "render/voxel_raster.h"
 #include "scene/camera.h"
 #include "voxel/voxels.h"
 
 namespace obscura::render {
 
+enum class Voxelizer : uint8_t { openvdb, gpu };
+
 // How the world is voxelized for methods that need a volume.
 struct Voxelization {
+    Voxelizer voxelizer = Voxelizer::openvdb;  // gpu: all of it, every frame
+    voxel::Shell shell = voxel::Shell::conservative;
     uint32_t cells = 256;         // a side of the window on the GPU: 64, 128, 256 or 512
     float cellSize = 0.0f;        // metres; 0: the world's longest side fills the window, at most 0.14 m
     bool exact = true;            // every frame waits for its own voxels; else they may be a frame behind and nobody waits
@@ -19,16 +25,29 @@ struct Voxelization {
 
 class VoxelVolume {
 public:
-    // Follows the world; adds the upload. Returns the bits and fills `volume`, its buffer aside; none where there is no volume (yet).
-    graph::BufferId add(graph::Graph& graph, const scene::World& world, float time, const scene::Camera& camera, const Voxelization& how, bool masked,
-                        ao::Volume& volume);
+    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelVolume& out) { return VoxelRaster::create(device, shaders, out.m_raster); }
+
+    struct Scene {
+        const scene::World& world;
+        float time;                           // seconds
+        const scene::Camera& camera;
+        std::span<const Drawable> drawables;  // of the world at that time
+        const Deform::Posed& posed;
+        bool masked;                          // alpha-masked surfaces are occluders
+    };
+    // Follows the world; adds the upload or the rasterisation. Returns the bits and fills `volume`, its buffer aside; none where there
+    // is no volume (yet).
+    graph::BufferId add(graph::Graph& graph, const Scene& scene, const Voxelization& how, ao::Volume& volume);
+    void forget(const ModelGpu& model) { m_raster.forget(model); }
     const voxel::Voxels* voxels() const { return m_voxels.get(); }  // null before the first add()
 
 private:
+    graph::BufferId upload(graph::Graph& graph, const voxel::Change& change);
     std::unique_ptr<voxel::Voxels> m_voxels;
     Voxelization m_how;
     bool m_masked = true;
     gpu::Buffer m_bits;
+    VoxelRaster m_raster;
 };
 
 }  // namespace obscura::render

@@ -31,11 +31,12 @@ bool Objects::moved(Object& object, const scene::Pose& pose, float time) const {
     return moved;
 }
 
-void Objects::redo(Object& object, const scene::Pose& posed, double cellSize, const Picked& picked, Posed& scratch) {
+void Objects::redo(Object& object, const scene::Pose& posed, double cellSize, const Picked& picked, Shell shell, Posed& scratch) {
     object.before.swap(object.bricks);
     object.bricks.clear();
     pose(*object.instance, object.part, posed, picked, scratch);
     RasterOptions options;
+    options.shell = shell;
     options.mostBricks = size_t(1) << 18;  // 16 MiB
     try {
         const RasterReport report = rasterise(scratch.triangles(), cellSize, object.bricks, options);
@@ -54,7 +55,7 @@ void Objects::redo(Object& object, const scene::Pose& posed, double cellSize, co
     }
 }
 
-void Objects::end(float time, double cellSize, const Picked& picked, std::vector<glm::ivec3>& changed, const Complain& complain) {
+void Objects::end(float time, double cellSize, const Picked& picked, Shell shell, std::vector<glm::ivec3>& changed, const Complain& complain) {
     const auto note = [&](const BrickSet& bricks) {
         for (size_t i = 0; i < bricks.size(); ++i) changed.push_back(bricks.place(i));
     };
@@ -79,7 +80,7 @@ void Objects::end(float time, double cellSize, const Picked& picked, std::vector
     for (auto& [key, object] : m_objects)
         if (moved(object, poses[key.first], time)) jobs.push_back({&object, &poses[key.first]});
     tbb::enumerable_thread_specific<Posed> scratch;
-    tbb::parallel_for(size_t(0), jobs.size(), [&](size_t i) { redo(*jobs[i].first, *jobs[i].second, cellSize, picked, scratch.local()); });
+    tbb::parallel_for(size_t(0), jobs.size(), [&](size_t i) { redo(*jobs[i].first, *jobs[i].second, cellSize, picked, shell, scratch.local()); });
     for (const auto& [object, posed] : jobs) {
         note(object->before);
         note(object->bricks);

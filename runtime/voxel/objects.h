@@ -19,7 +19,7 @@ public:
     void add(const scene::Instance& instance, std::span<const Part> parts);
     // Redoes what moved, in parallel, and drops what was not added; appends the bricks that either changed. A part that cannot be
     // rasterised is left out, with a line.
-    void end(float time, double cellSize, const Picked& picked, std::vector<glm::ivec3>& changed, const Complain& complain);
+    void end(float time, double cellSize, const Picked& picked, Shell shell, std::vector<glm::ivec3>& changed, const Complain& complain);
     void clear() { m_objects.clear(); }
 
     // Adds what the objects have in a brick.
@@ -44,7 +44,7 @@ private:
         bool complained = false;
     };
     bool moved(Object& object, const scene::Pose& pose, float time) const;
-    static void redo(Object& object, const scene::Pose& pose, double cellSize, const Picked& picked, Posed& scratch);
+    static void redo(Object& object, const scene::Pose& pose, double cellSize, const Picked& picked, Shell shell, Posed& scratch);
 
     std::map<std::pair<uint32_t, int>, Object> m_objects;  // by instance and node
     uint64_t m_round = 0;

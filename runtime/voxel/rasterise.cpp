@@ -66,19 +66,21 @@ struct Edge {
     }
 };
 
-inline Edge edge(const glm::dvec3* p, int i, int s, int t) {
+inline Edge edge(const glm::dvec3* p, int i, int s, int t, bool thin) {
     const glm::dvec3 &from = p[i], &to = p[(i + 1) % 3], &other = p[(i + 2) % 3];
     Edge e{from[t] - to[t], to[s] - from[s], 0.0, 0.0};
     const double along = e.a * from[s] + e.b * from[t], across = e.a * other[s] + e.b * other[t];
-    const double slack = kTouch * (std::abs(e.a) + std::abs(e.b));
-    e.low = std::min(along, across) - std::max(e.a, 0.0) - std::max(e.b, 0.0) - slack;
-    e.high = std::max(along, across) - std::min(e.a, 0.0) - std::min(e.b, 0.0) + slack;
+    // A cell reaches this far from its middle; of a thin shell, only its axes do.
+    const double sum = std::abs(e.a) + std::abs(e.b), middle = 0.5 * (e.a + e.b);
+    const double reach = 0.5 * (thin ? std::max(std::abs(e.a), std::abs(e.b)) : sum) + kTouch * sum;
+    e.low = std::min(along, across) - middle - reach;
+    e.high = std::max(along, across) - middle + reach;
     return e;
 }
 
 // `p` in cells, counted from cell 0's lowest corner. Columns stand along w, the normal's largest axis, so that the plane stays within a few cells of each. A triangle
 // too thin for its normal to mean anything is left to the edges, with rows along its longest side.
-void draw(const glm::dvec3* p, Pen& pen) {
+void draw(const glm::dvec3* p, bool thin, Pen& pen) {
     glm::ivec3 low, high;
     for (int k = 0; k < 3; ++k) {
         low[k] = int(std::floor(std::min({p[0][k], p[1][k], p[2][k]}) - kTouch));
@@ -86,16 +88,16 @@ void draw(const glm::dvec3* p, Pen& pen) {
     }
     const glm::ivec3 span = high - low;
     glm::ivec3 cell;
-    if ((span.x == 0) + (span.y == 0) + (span.z == 0) >= 2) {  // one row of cells: what is connected touches each
+    if (!thin && (span.x == 0) + (span.y == 0) + (span.z == 0) >= 2) {  // one row of cells: what is connected touches each
         for (cell.x = low.x; cell.x <= high.x; ++cell.x)
             for (cell.y = low.y; cell.y <= high.y; ++cell.y)
                 for (cell.z = low.z; cell.z <= high.z && !pen.full(); ++cell.z) pen.set(cell);
         return;
     }
     const glm::dvec3 q[3] = {p[0] - glm::dvec3(low), p[1] - glm::dvec3(low), p[2] - glm::dvec3(low)};
-    if (span.x == 0 || span.y == 0 || span.z == 0) {  // one layer of cells: only its outline within the layer counts
+    if (!thin && (span.x == 0 || span.y == 0 || span.z == 0)) {  // one layer of cells: only its outline within the layer counts
         const int w = span.z == 0 ? 2 : span.x == 0 ? 0 : 1, u = (w + 1) % 3, v = (w + 2) % 3;
-        const Edge edges[3] = {edge(q, 0, u, v), edge(q, 1, u, v), edge(q, 2, u, v)};
+        const Edge edges[3] = {edge(q, 0, u, v, false), edge(q, 1, u, v, false), edge(q, 2, u, v, false)};
         cell[w] = low[w];
         for (int i = 0; i <= span[u] && !pen.full(); ++i) {
             Range across{0, span[v]};
@@ -112,11 +114,11 @@ void draw(const glm::dvec3* p, Pen& pen) {
                        : ((span.z >= span.x && span.z >= span.y ? 2 : span.x >= span.y ? 0 : 1) + 1) % 3;
     const int u = (w + 2) % 3, v = (w + 1) % 3;
     Edge uv[3], uw[3], vw[3];
-    for (int i = 0; i < 3; ++i) uv[i] = edge(q, i, u, v), uw[i] = edge(q, i, u, w), vw[i] = edge(q, i, v, w);
+    for (int i = 0; i < 3; ++i) uv[i] = edge(q, i, u, v, thin), uw[i] = edge(q, i, u, w, thin), vw[i] = edge(q, i, v, w, thin);
 
-    // Height of the plane over a column's lower corner, and how far it rises and falls within the column.
+    // Height of the plane over a column's middle, and how far from it a cell's lower side may be.
     const double slopeU = flat ? -n[u] / n[w] : 0.0, slopeV = flat ? -n[v] / n[w] : 0.0;
-    const double rise = std::max(slopeU, 0.0) + std::max(slopeV, 0.0) + kTouch, fall = std::min(slopeU, 0.0) + std::min(slopeV, 0.0) - kTouch;
+    const double reach = 0.5 + 0.5 * (thin ? 0.0 : std::abs(slopeU) + std::abs(slopeV)) + kTouch;
     for (int i = 0; i <= span[u] && !pen.full(); ++i) {
         Range across{0, span[v]};
         for (const Edge& e : uv) e.narrow(i, across);
@@ -125,8 +127,8 @@ void draw(const glm::dvec3* p, Pen& pen) {
             cell[v] = low[v] + j;
             Range up{0, span[w]};
             if (flat) {
-                const double height = q[0][w] + slopeU * (i - q[0][u]) + slopeV * (j - q[0][v]);
-                up = {int(std::max(0.0, std::floor(height + fall))), int(std::min(double(span[w]), std::floor(height + rise)))};
+                const double height = q[0][w] + slopeU * (i + 0.5 - q[0][u]) + slopeV * (j + 0.5 - q[0][v]) - 0.5;
+                up = {int(std::max(0.0, std::ceil(height - reach))), int(std::min(double(span[w]), std::floor(height + reach)))};
             } else {
                 for (const Edge& e : uw) e.narrow(i, up);
             }
@@ -142,7 +144,7 @@ void draw(const glm::dvec3* p, Pen& pen) {
 
 bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-RasterReport drawRange(const Triangles& triangles, double inverse, size_t begin, size_t end, Pen pen) {
+RasterReport drawRange(const Triangles& triangles, double inverse, bool thin, size_t begin, size_t end, Pen pen) {
     RasterReport report;
     constexpr double kMost = double(kMostCell - 1);
     for (size_t i = begin; i < end && !pen.full(); ++i) {
@@ -158,7 +160,7 @@ RasterReport drawRange(const Triangles& triangles, double inverse, size_t begin,
             ++report.tooFar;
             continue;
         }
-        draw(p, pen);
+        draw(p, thin, pen);
         ++report.triangles;
     }
     return report;
@@ -204,6 +206,7 @@ double bricksOf(double area, double cellSize) {
 RasterReport rasterise(const Triangles& triangles, double cellSize, BrickSet& into, const RasterOptions& options) {
     const size_t count = triangles.indices.size() / 3;
     const double inverse = 1.0 / cellSize;
+    const bool thin = options.shell == Shell::thin;
     constexpr size_t kBlock = 2048, kRound = size_t(1) << 20;
     // Sheets that lie on each other count twice in the area: it decides alone only where it is far off.
     const double expected = bricksOf(area(triangles, cellSize * kMostCell), cellSize);
@@ -216,11 +219,11 @@ RasterReport rasterise(const Triangles& triangles, double cellSize, BrickSet& in
     for (size_t first = 0; first < count; first += kRound) {
         if (options.progress) options.progress(float(first) / float(count));
         if (count <= kBlock) {
-            report += drawRange(triangles, inverse, 0, count, Pen(into, taken, limit));
+            report += drawRange(triangles, inverse, thin, 0, count, Pen(into, taken, limit));
         } else {
             tbb::parallel_for(tbb::blocked_range<size_t>(first, std::min(count, first + kRound), kBlock), [&](const tbb::blocked_range<size_t>& range) {
                 Share& own = shares.local();
-                own.report += drawRange(triangles, inverse, range.begin(), range.end(), Pen(own.bricks, taken, limit));
+                own.report += drawRange(triangles, inverse, thin, range.begin(), range.end(), Pen(own.bricks, taken, limit));
             });
             for (Share& share : shares) {
                 into.merge(share.bricks);

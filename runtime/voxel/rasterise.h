@@ -1,5 +1,6 @@
 // Triangles to cells, conservatively: a cell is set exactly when triangle and cube touch, by the separating axes of a
 // triangle and a box [Akenine-Möller 2001], walked in columns along the triangle's dominant axis [Schwarz and Seidel 2010].
+// Or thinly: only as many cells as it takes that no path over cell faces crosses the surface (their 6-separating shell).
 #pragma once
 
 #include <functional>
@@ -14,7 +15,10 @@ struct Triangles {                          // world space, metres
     std::span<const uint32_t> indices;      // three a triangle, each < positions.size()
 };
 
+enum class Shell : uint8_t { conservative, thin };
+
 struct RasterOptions {
+    Shell shell = Shell::conservative;
     size_t mostBricks = size_t(1) << 22;    // 256 MiB of bits; more is refused
     std::function<void(float)> progress;    // 0 to 1, now and then, from the calling thread
 };

@@ -90,13 +90,14 @@ std::string Resting::survey(const scene::World& world, float time, const Options
             m_cellSize = least;
         }
     }
-    return "voxels-" + hash.add(kVersion).add(m_cellSize).hex();
+    return "voxels-" + hash.add(kVersion).add(uint32_t(options.shell)).add(m_cellSize).hex();
 }
 
 void Resting::rasteriseAll(const scene::World& world, float time, const Options& options) {
     BrickSet bricks;
     RasterReport report;
     RasterOptions raster;
+    raster.shell = options.shell;
     raster.mostBricks = options.mostBricks;
     uint64_t done = 0;
     forEach(world, time, options.picked, true, [&](const Posed& posed) {
@@ -121,7 +122,14 @@ void Resting::build(const scene::World& world, float time, const Options& option
     m_bounds = {};
     m_facts = {};
     m_built = true;
+    const auto finish = [&] {
+        m_facts.cells = m_sparse.cells();
+        m_facts.bricks = m_sparse.bricks();
+        m_facts.bytes = m_sparse.bytes();
+        m_facts.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+    };
     const std::string key = survey(world, time, options);
+    if (!options.bits) return finish();
     const std::filesystem::path file = options.cache.empty() || m_facts.triangles == 0 ? "" : options.cache / (key + ".vdb");
     std::error_code ignored;
     if (!file.empty() && std::filesystem::exists(file, ignored)) {
@@ -143,10 +151,7 @@ void Resting::build(const scene::World& world, float time, const Options& option
             }
         }
     }
-    m_facts.cells = m_sparse.cells();
-    m_facts.bricks = m_sparse.bricks();
-    m_facts.bytes = m_sparse.bytes();
-    m_facts.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+    finish();
 }
 
 }  // namespace obscura::voxel

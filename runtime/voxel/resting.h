@@ -26,6 +26,8 @@ public:
         uint32_t cells = 256;                                // a side of the window
         double cellSize = 0.0;                               // metres; 0: chosen from the world
         Picked picked;
+        Shell shell = Shell::conservative;
+        bool bits = true;                                    // false: only bounds and cell size are found out
         std::filesystem::path cache;                         // folder; empty: nothing is kept
         size_t mostBricks = RasterOptions().mostBricks;
         std::function<void(const std::string&)> say;         // one line each; from the thread that calls build()

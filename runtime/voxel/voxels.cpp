@@ -55,6 +55,8 @@ void Voxels::Impl::step() {
         build.cells = options.cells;
         build.cellSize = options.cellSize;
         build.picked = picked;
+        build.shell = options.shell;
+        build.bits = options.bits;
         build.cache = options.cache;
         build.mostBricks = options.mostBricks;
         build.say = [this](const std::string& line) { lines.push_back(line); };
@@ -72,6 +74,9 @@ void Voxels::Impl::step() {
         rebuilt = true;
     }
     if (failed) return;
+    const scene::Bounds& bounds = resting.bounds();
+    const glm::ivec3 origin = windowOrigin(options.cells, resting.cellSize(), bounds.min, bounds.max, eye);
+    if (!options.bits) return window.place(origin);
     const Clock::time_point begun = Clock::now();
     std::vector<glm::ivec3> changed;
     objects.begin();
@@ -82,9 +87,8 @@ void Voxels::Impl::step() {
         std::erase_if(parts, [&](const Part& part) { return resting.contains(instance.id, part); });
         objects.add(instance, parts);
     }
-    objects.end(time, resting.cellSize(), picked, changed, [this](const std::string& line) { lines.push_back(line); });
-    const scene::Bounds& bounds = resting.bounds();
-    window.update(windowOrigin(options.cells, resting.cellSize(), bounds.min, bounds.max, eye), changed, rebuilt, [this](const glm::ivec3& place, Brick& out) {
+    objects.end(time, resting.cellSize(), picked, options.shell, changed, [this](const std::string& line) { lines.push_back(line); });
+    window.update(origin, changed, rebuilt, [this](const glm::ivec3& place, Brick& out) {
         resting.sparse().find(place, out);
         objects.compose(place, out);
     });

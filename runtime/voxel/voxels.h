@@ -12,6 +12,8 @@ struct Options {
     uint32_t cells = 256;            // a side of the window: 64, 128, 256 or 512
     double cellSize = 0.0;           // metres; 0: the world's longest side fills the window, at most 0.14 m
     bool masked = true;              // alpha-masked triangles are occluders, as if they had no holes
+    Shell shell = Shell::conservative;
+    bool bits = true;                // false: only where the window stands and how large its cells are; the bits are somebody else's
     std::filesystem::path cache;     // folder of the resting world's .vdb file; empty: nothing is kept
     size_t mostBricks = RasterOptions().mostBricks;
     std::function<void(const std::string&)> say;  // one line each, from the thread that calls update()

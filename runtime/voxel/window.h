@@ -18,6 +18,8 @@ public:
     // outside are fine). `all`: everything is composed anew. Bricks that come out as they were are not touched.
     void update(const glm::ivec3& origin, std::span<const glm::ivec3> changed, bool all, const Compose& compose);
 
+    void place(const glm::ivec3& origin) { m_origin = origin; }  // and nothing else
+
     uint32_t cells() const { return m_side * kBrickSide; }
     glm::ivec3 origin() const { return m_origin; }  // in bricks
     bool holds(const glm::ivec3& place) const;

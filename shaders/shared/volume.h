@@ -33,6 +33,16 @@ uint bitOf(Volume v, uvec3 cell) {
 bool insideVolume(Volume v, vec3 cell) {
     return min(min(cell.x, cell.y), cell.z) >= 0.0 && max(max(cell.x, cell.y), cell.z) < float(v.shift.w);
 }
+
+// A shader that looks cells up says at which binding of set 0 the bits stand, before it includes this.
+#ifdef VOLUME_BINDING
+layout(set = 0, binding = VOLUME_BINDING, std430) readonly buffer VolumeBits { uint volumeBits[]; };
+// Whether a place, in cells from the window's lowest corner, lies in a set cell.
+bool occupied(Volume v, vec3 place) {
+    uvec3 cell = uvec3(ivec3(place));
+    return (volumeBits[wordOf(v, cell)] >> bitOf(v, cell) & 1u) != 0u && insideVolume(v, place);
+}
+#endif
 #endif
 
 #endif

@@ -235,7 +235,7 @@ TEST_F(Frame, voxelsArriveThoughNobodyLooksAtThem) {
         device().nextFrame();
         graph.begin();
         ao::Volume volume;
-        const graph::BufferId bits = voxels.add(graph, world, 0.0f, camera, {}, true, volume);
+        const graph::BufferId bits = voxels.add(graph, {world, 0.0f, camera, {}, {}, true}, {}, volume);
         ASSERT_TRUE(bool(bits));
         bytes = uint64_t(volume.cells) * volume.cells * volume.cells / 8;
         if (looked) {

@@ -1,4 +1,5 @@
 // The rasteriser against a triangle cut by the box's six planes: another way to the same answer.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -84,6 +85,43 @@ TEST(Rasterise, cellsBothSidesOfATouchedBoundary) {
     voxel::BrickSet bricks;
     voxel::rasterise(soup.triangles(), 1.0, bricks);
     EXPECT_EQ(cellsOf(bricks), (Cells{{0, 0, 0}, {0, 1, 0}}));
+}
+
+// A closed surface of many small triangles, or of few large ones, lets no path over cell faces through, thin as its shell is.
+TEST(Rasterise, thinShellsAreTight) {
+    constexpr float kPi = 3.14159265f;
+    for (const int parts : {5, 14, 60}) {
+        Soup ball;
+        const auto point = [&](int i, int k) {
+            const float up = kPi * float(i) / float(parts), around = 2.0f * kPi * float(k) / float(parts);
+            return glm::vec3(0.03f, -0.21f, 0.11f) + 1.3f * glm::vec3(std::sin(up) * std::cos(around), std::cos(up), std::sin(up) * std::sin(around));
+        };
+        for (int i = 0; i < parts; ++i)
+            for (int k = 0; k < parts; ++k) {
+                ball.add(point(i, k), point(i + 1, k), point(i + 1, k + 1));
+                ball.add(point(i, k), point(i + 1, k + 1), point(i, k + 1));
+            }
+        voxel::BrickSet thin, thick;
+        voxel::rasterise(ball.triangles(), 0.1, thick);
+        voxel::rasterise(ball.triangles(), 0.1, thin, {.shell = voxel::Shell::thin});
+        const Cells few = cellsOf(thin), many = cellsOf(thick);
+        EXPECT_TRUE(std::includes(many.begin(), many.end(), few.begin(), few.end()));
+        EXPECT_LT(double(few.size()), 0.65 * double(many.size()));
+        Cells reached{{-20, -20, -20}};
+        std::vector<std::array<int, 3>> open(reached.begin(), reached.end());
+        while (!open.empty()) {
+            const std::array<int, 3> at = open.back();
+            open.pop_back();
+            for (int step = 0; step < 6; ++step) {
+                std::array<int, 3> next = at;
+                next[size_t(step / 2)] += step % 2 ? 1 : -1;
+                if (std::abs(next[size_t(step / 2)]) > 20 || few.count(next) || !reached.insert(next).second) continue;
+                open.push_back(next);
+            }
+        }
+        EXPECT_FALSE(reached.count({0, -2, 1})) << parts << " parts: the middle was reached";
+        EXPECT_GT(reached.size(), 40000u);
+    }
 }
 
 TEST(Rasterise, manyThreadsMakeTheSameCells) {

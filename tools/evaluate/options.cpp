@@ -8,6 +8,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
+#include "app/voxel_arguments.h"
 #include "content.h"
 #include "scene/hash.h"
 
@@ -125,10 +126,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     auto* masked = cli.add_flag("--skip-masked", options.skipMasked,
                                 "Leave alpha-masked surfaces out of frame and reference, as stored references do");
 
-    cli.add_option("--voxels", options.voxels.cells, "Cells a side of the voxel window, for methods that trace voxels")
-        ->check(CLI::IsMember({64u, 128u, 256u, 512u}))->capture_default_str();
-    cli.add_option("--voxel-size", options.voxels.cellSize, "Metres a cell; 0: the scene's longest side fills the window, at most 0.14")
-        ->check(CLI::Range(0.0f, 1000.0f))->capture_default_str();
+    app::addVoxelArguments(cli, options.voxels, cli.option_defaults()->get_group());
 
     cli.option_defaults()->group("What is judged");
     auto* methodOption = takeAll(cli.add_option("--method", methods, "Methods by id, or all")->capture_default_str());

@@ -6,11 +6,11 @@
 #include "shared/falloff.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
+#define VOLUME_BINDING 2
 #include "shared/volume.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, std140) uniform VolumeBlock { Volume volumeBlock; };
-layout(set = 0, binding = 2, std430) readonly buffer Bits { uint bits[]; };
 layout(set = 0, binding = 3, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D map;
@@ -66,8 +66,7 @@ void main() {
     const vec2 golden = vec2(-0.737368878, -0.675490294);
     // An origin that lies in a set cell is beside another surface: which half of its rays that blocks, bits do not say, so each
     // counts half, and then goes on from where the cell ends.
-    uvec3 start = uvec3(ivec3(origin));
-    bool buried = (bits[wordOf(volume, start)] >> bitOf(volume, start) & 1u) != 0u && insideVolume(volume, origin);
+    bool buried = occupied(volume, origin);
     float nearest = buried ? 1.0 / cellsPerStep : 0.0, half0 = buried ? 0.5 : 0.0;
     float blocked = 0.0, total = 0.0, shift = xi.z;
     for (uint i = 0u; i < rayCount; ++i) {
@@ -80,9 +79,7 @@ void main() {
         for (uint k = stepCount; k > 0u; --k) {
             float t = float(k - 1u) + first;
             vec3 at = origin + stride * t;
-            uvec3 cell = uvec3(ivec3(at));
-            bool set = (bits[wordOf(volume, cell)] >> bitOf(volume, cell) & 1u) != 0u;
-            hit = set && t >= nearest && insideVolume(volume, at) ? t : hit;
+            hit = occupied(volume, at) && t >= nearest ? t : hit;
         }
         // From the receiver, not from the lifted origin: as far as to a surface that faces the ray.
         float far = hit >= 0.0 ? falloff(rho, hit * step + lift * c) : 0.0;

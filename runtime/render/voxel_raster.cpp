@@ -1,0 +1,84 @@
+#include "render/voxel_raster.h"
+
+#include "voxel/job.h"
+
+namespace obscura::render {
+namespace {
+
+// Object -> cells from the window's lowest corner, rows; in double precision where the numbers are still large.
+void rowsOf(const glm::mat4& world, const voxel::Change& where, shared::vec4 rows[3]) {
+    for (int r = 0; r < 3; ++r) {
+        const auto cells = [&](int column) { return double(world[column][r]) / where.cellSize; };
+        rows[r] = {float(cells(0)), float(cells(1)), float(cells(2)), float(cells(3) + 0.5 - double(where.origin[r]))};
+    }
+}
+
+bool meets(const scene::Bounds& box, const voxel::Change& where) {
+    for (int k = 0; k < 3; ++k) {
+        const double low = (double(where.origin[k]) - 1.0) * where.cellSize, high = low + (double(where.cells) + 1.0) * where.cellSize;
+        if (double(box.max[k]) < low || double(box.min[k]) > high) return false;
+    }
+    return true;  // so do boxes with a NaN, whose triangles may be sound
+}
+
+}  // namespace
+
+gpu::Status VoxelRaster::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelRaster& out) {
+    out.m_device = &device;
+    VkPhysicalDeviceProperties properties;
+    device.vk().GetPhysicalDeviceProperties(device.physical(), &properties);
+    out.m_largest = properties.limits.maxStorageBufferRange;
+    return gpu::Program::compute(device, shaders, "voxel/rasterise.comp", {}, out.m_program);
+}
+
+bool VoxelRaster::bindable(const ModelGpu& model) {
+    if (model.vertices.bytes() <= m_largest && model.indices.bytes() <= m_largest) return true;
+    if (m_complained != &model)
+        m_device->log(gpu::Severity::warning, "voxels: " + model.model->name + " is too large for this device's storage buffers and is left out; OpenVDB takes it");
+    m_complained = &model;
+    return false;
+}
+
+graph::BufferId VoxelRaster::add(graph::Graph& graph, std::span<const Drawable> drawables, const Deform::Posed& posed, const voxel::Change& where, bool masked,
+                                 voxel::Shell shell) {
+    struct Draw { const ModelGpu* model; shared::VoxelJob job; };
+    std::vector<Draw> draws;
+    const uint32_t mask = where.cells - 1;
+    for (const Drawable& drawable : drawables) {
+        const scene::AlphaMode mode = drawable.primitive->material->alphaMode;
+        if (mode == scene::AlphaMode::blend || (mode == scene::AlphaMode::mask && !masked)) continue;
+        if (!meets(drawable.bounds, where) || !bindable(*drawable.model)) continue;
+        const bool isPosed = drawable.posed != kNotPosed;
+        shared::VoxelJob job{};
+        rowsOf(drawable.world, where, job.rows);
+        job.shift = {uint32_t(where.origin.x) & mask, uint32_t(where.origin.y) & mask, uint32_t(where.origin.z) & mask, where.cells};
+        job.triangles = drawable.primitive->indexCount / 3;
+        job.indices = uint32_t(drawable.primitive->indices / sizeof(uint32_t));
+        job.positions = isPosed ? drawable.posed * 3 : uint32_t(drawable.primitive->positions / sizeof(float));
+        job.posed = isPosed ? 1 : 0;
+        job.thin = shell == voxel::Shell::thin ? 1 : 0;
+        draws.push_back({drawable.model, job});
+    }
+    const graph::BufferId bits = graph.buffer("voxels", uint64_t(where.cells) * where.cells * where.cells / 8);
+    graph.pass("voxels.clear").use(bits, graph::Access::transferWrite).record([bits](const graph::PassContext& c) {
+        const graph::ExternalBuffer buffer = c.buffer(bits);
+        c.device.vk().CmdFillBuffer(c.cmd, buffer.buffer, buffer.offset, buffer.bytes, 0);
+    });
+    const graph::BufferId positions = posed.now ? posed.now : graph.upload("nothing posed", glm::vec4(0.0f));
+    graph.pass("voxels.rasterise", m_program).read(positions).write(bits).record([this, draws = std::move(draws)](const graph::PassContext& c) {
+        const ModelGpu* bound = nullptr;
+        for (const Draw& draw : draws) {
+            if (draw.model != bound) {
+                const VkDescriptorSet set = m_sets.of(*m_device, c.program->setLayout(1), *draw.model, {&draw.model->vertices, &draw.model->indices});
+                if (set == VK_NULL_HANDLE) continue;
+                c.device.vk().CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c.program->layout(), 1, 1, &set, 0, nullptr);
+                bound = draw.model;
+            }
+            c.push(&draw.job, sizeof(draw.job));
+            c.device.vk().CmdDispatch(c.cmd, (draw.job.triangles + c.program->workgroup()[0] - 1) / c.program->workgroup()[0], 1, 1);
+        }
+    });
+    return bits;
+}
+
+}  // namespace obscura::render
