@@ -20,6 +20,25 @@ private:
     gpu::Program m_blur;
 };
 
+// Interleaving [Timonen 2013, sec. 10], for methods whose work splits by direction or sample: a pixel does its share of it, 1/n^2 (see
+// shaders/ao/common/tile.glsl), and gathers the shares of the n x n pixels around that show its surface.
+inline constexpr const char* kInterleaves[] = {"off", "2x2", "3x3", "4x4"};
+inline constexpr Parameter kInterleave{"interleave", "", 0, 3, 0, true, {kInterleaves, 4},
+                                       "Pixels share out directions among their neighbours on the same surface: a fraction of the cost, a little blur. Directions are rounded up to shares."};
+uint32_t tileSide(const Values& values);                    // n; 1: off
+uint32_t sharedOut(uint32_t directions, uint32_t side);     // rounded up, so that every pixel has as many
+
+class Gather {
+public:
+    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Gather& out);
+    // parts: visibility of each pixel's share, R16F, visible size. With `open`, RG16F (weight x obscurance, weight), whose mean is taken
+    // off that visibility. Returns visibility, R16F.
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, uint32_t side, graph::ImageId open = {});
+
+private:
+    gpu::Program m_equal, m_weighted;
+};
+
 // What the past may say. The past is last frame's result where the motion vectors lead, bilinear over those of its four pixels
 // that show the same surface; `history` is the weight it gets once enough frames agree, 1 - 1/(n + 1) until then.
 struct TemporalSettings {

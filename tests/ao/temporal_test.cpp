@@ -1,123 +1,29 @@
 // The shared temporal pass on a wall made by hand: what it averages, follows, forgets and refuses.
-#include <cmath>
-#include <functional>
 #include <random>
 
-#include "ao/resolve.h"
-#include "ao/room.h"
+#include "ao/resolve_test.h"
 
 namespace obscura::ao {
 namespace {
 
-using Plane = std::vector<float>;
-constexpr uint32_t kWidth = 40, kHeight = 24, kGuard = 2;
-constexpr float kHorizontal = 0.05f;  // eye metres a pixel, per metre of depth
-
-class TemporalTest : public test::GpuTest {
+class TemporalTest : public ResolveTest {
 protected:
-    // One frame; images are of the visible part, the guard band repeats the edge.
-    struct Frame {
-        std::function<float(int x, int y)> visibility = [](int, int) { return 1.0f; };
-        std::function<float(int x, int y)> depth = [](int, int) { return 2.0f; };
-        std::array<float, 2> motion{0.0f, 0.0f};
-        std::array<float, 3> normal{0.0f, 0.0f, 1.0f};
-        float advanced = 0.0f;  // metres the camera went forward since last frame
-        bool hasMotion = true;
-    };
-
     void SetUp() override {
-        test::GpuTest::SetUp();
-        m_shaders.add(shaders());
+        ResolveTest::SetUp();
         ASSERT_EQ(Temporal::create(m_device, m_shaders, m_temporal), Status::ok);
     }
     void TearDown() override {
         m_device.waitIdle();
         m_temporal = {};
-        test::GpuTest::TearDown();
+        ResolveTest::TearDown();
     }
-
     Plane run(const Frame& frame, const TemporalSettings& settings) {
-        const uint32_t width = kWidth + 2 * kGuard, height = kHeight + 2 * kGuard;
-        std::vector<float> depth, motion, visibility;
-        std::vector<uint32_t> normals;
-        for (uint32_t y = 0; y < height; ++y)
-            for (uint32_t x = 0; x < width; ++x) {
-                depth.push_back(frame.depth(int(x) - int(kGuard), int(y) - int(kGuard)));
-                normals.push_back(packed(frame.normal));
-                motion.insert(motion.end(), {frame.motion[0], frame.motion[1]});
-            }
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x) visibility.push_back(frame.visibility(int(x), int(y)));
-
-        m_device.nextFrame();
-        m_graph.begin();
-        Inputs inputs{};
-        inputs.view.size = {width, height};
-        inputs.view.visible = {kWidth, kHeight};
-        inputs.view.guard = {kGuard, kGuard};
-        inputs.view.skyDepth = 1000.0f;
-        inputs.view.unproject = {kHorizontal, -kHorizontal, -kHorizontal * float(width) / 2, kHorizontal * float(height) / 2};
-        inputs.viewBlock = m_graph.upload("view", inputs.view);
-        std::vector<gpu::Image> kept(4);
-        inputs.depth = image(kept[0], VK_FORMAT_R32_SFLOAT, width, height, depth);
-        inputs.normals = image(kept[1], VK_FORMAT_R32_UINT, width, height, normals);
-        if (frame.hasMotion) inputs.motion = image(kept[2], VK_FORMAT_R32G32_SFLOAT, width, height, motion);
-        inputs.motionScale[0] = inputs.motionScale[1] = 1.0f;
-        const float rows[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -frame.advanced};
-        std::copy_n(rows, 12, inputs.previousFromEye);
-        std::vector<uint16_t> halves;
-        for (const float v : visibility) halves.push_back(half(v));
-        const graph::ImageId source = image(kept[3], VK_FORMAT_R16_SFLOAT, kWidth, kHeight, halves);
-
-        const graph::ImageId result = m_temporal.add(m_graph, inputs, source, settings, "temporal");
-        m_passedThrough = result == source;
-        if (m_passedThrough) return visibility;
-        gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(m_device, kWidth * kHeight * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
-        const graph::BufferId target = m_graph.import("back", back, graph::Graph::Shared::written);
-        m_graph.pass("read back").use(result, graph::Access::transferRead).use(target, graph::Access::transferWrite)
-            .record([&, result](const graph::PassContext& c) {
-                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kWidth, kHeight, 1}};
-                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(result), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
-            });
-        gpu::Status status = gpu::Status::ok;
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph.execute(cmd); }), gpu::Status::ok);
-        EXPECT_EQ(status, gpu::Status::ok);
-        std::vector<uint16_t> words(kWidth * kHeight);
-        std::memcpy(words.data(), back.mapped(), words.size() * 2);
-        Plane plane;
-        for (const uint16_t h : words) plane.push_back(test::halfToFloat(h));
-        return plane;
+        return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
+            return m_temporal.add(graph, inputs, source, settings, "temporal");
+        });
     }
 
-    // Never more than a thousandth from the float, which is what a half keeps of visibility.
-    static uint16_t half(float v) {
-        if (v <= 0.0f) return 0;
-        int exponent = 0;
-        const float mantissa = std::frexp(v, &exponent);
-        return uint16_t(((exponent + 14) << 10) + int(std::lround((mantissa * 2.0f - 1.0f) * 1024.0f)));
-    }
-    static uint32_t packed(const std::array<float, 3>& n) {  // packNormal(), z > 0
-        const float sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
-        const auto word = [&](float v) { return uint32_t(uint16_t(int16_t(std::lround(v / sum * 32767.0f)))); };
-        return word(n[0]) | word(n[1]) << 16;
-    }
-    static float at(const Plane& plane, uint32_t x, uint32_t y) { return plane[y * kWidth + x]; }
-
-    template <class T> graph::ImageId image(gpu::Image& out, VkFormat format, uint32_t width, uint32_t height, const std::vector<T>& texels) {
-        EXPECT_EQ(gpu::Image::create(m_device, {format, width, height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                                     "temporal test", out), gpu::Status::ok);
-        EXPECT_EQ(gpu::upload(m_device, out, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
-        graph::External external{out.handle(), out.view(), out.desc()};
-        external.layout = external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-        return m_graph.import("temporal test", external);
-    }
-
-    gpu::Device& m_device = test::device();
-    gpu::ShaderLibrary m_shaders;
-    graph::Graph m_graph{m_device};
     Temporal m_temporal;
-    bool m_passedThrough = false;
 };
 
 TemporalSettings papers(float k) { return {.history = k, .clip = 0.0f}; }

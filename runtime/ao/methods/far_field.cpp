@@ -20,16 +20,17 @@
 #include <iterator>
 #include <string>
 
+#include "ao/resolve.h"
 #include "far_field_parts.h"
 
 namespace obscura::ao {
 namespace {
 
 const char* const kAveragings[] = {"none", "prefix sums", "pyramid", "direct"};
+constexpr float kNine = 2;  // interleave: 3x3
 enum Estimator : uint32_t { kSlab, kConnected, kBlended };
 const char* const kEstimators[] = {"slab", "connected", "blended"};
 const char* const kParts[] = {"both", "near", "far"};
-const char* const kInterleaves[] = {"off", "3x3"};
 const char* const kSparsities[] = {"every", "every 2nd", "every 4th"};
 
 const Parameter kParameters[] = {
@@ -42,7 +43,7 @@ const Parameter kParameters[] = {
     {"averaging", "", 0, 3, 2, true, {kAveragings, 4}, "How points are averaged over a sector's width: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth; direct: single texels of the depth buffer, without scans."},
     {"near", "", 0, 16, 3, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
     {"parts", "", 0, 2, 0, true, {kParts, 3}, "What is shown: both fields, the near one alone, or the far one alone above the near one's horizon."},
-    {"interleave", "", 0, 1, 0, true, {kInterleaves, 2}, "3x3: a pixel does one sector in nine and gathers those of its neighbours; directions 9, 18 or 27."},
+    kInterleave,
     {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
     {"jitter", "", 0, 1, 0, false, {}, "How much of its segment a pixel's directions are turned by, at random: noise instead of bands. Not interleaved."},
     {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
@@ -50,8 +51,8 @@ const Parameter kParameters[] = {
 const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
 const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"interval", 5}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
 const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"slope", -1},
-                              {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", 1}};
-const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"interleave", 1}};
+                              {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kNine}};
+const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"interleave", kNine}};
 const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"averaging", 0}, {"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
     {"default", "8 directions x 4 segments, blended estimator, lateral pyramid.", {}},
@@ -82,8 +83,9 @@ public:
             if (gpu::Program::compute(device, shaders, "ao/far_field/interleaved.comp", {{0, i}}, result->m_interleaved[i]) != gpu::Status::ok) return nullptr;
         }
         const struct { const char* name; gpu::Program* program; } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid},
-                                                                                {"box_average", &result->m_boxAverage}, {"gather", &result->m_gather},
+                                                                                {"box_average", &result->m_boxAverage},
                                                                                 {"blur", &result->m_blur}};
+        if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, std::string("ao/far_field/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;
         return result;
@@ -92,9 +94,10 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
         const float thickness = values["thickness"];
+        const uint32_t side = thickness > 0.0f ? 1 : tileSide(values);
         auto averaging = Averaging(values.count("averaging"));
         if (thickness > 0.0f && averaging != Averaging::direct) averaging = Averaging::none;
-        const uint32_t directions = values.count("directions"), lineStep = 1u << values.count("lines");
+        const uint32_t directions = std::min(sharedOut(values.count("directions"), side), 32u / (side * side) * side * side), lineStep = 1u << values.count("lines");
         const FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging);
         const float slope = values["slope"];
         const float connections[] = {0.0f, 1.0f, 0.75f};
@@ -128,8 +131,7 @@ public:
                 .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
         }
         const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
-        const bool sharedOut = values.count("interleave") && thickness <= 0.0f;
-        return sharedOut ? interleaved(graph, inputs, scanned, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
+        return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
     }
 
 private:
@@ -149,23 +151,23 @@ private:
         return result;
     }
 
-    // [Timonen 2013, sec. 10]: the whole near field of every pixel, the far field shared out over 3x3 pixels.
-    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, float threshold) {
+    // [Timonen 2013, sec. 10]: the whole near field of every pixel, the far field shared out over a tile of pixels.
+    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, uint32_t side, float threshold) {
         const auto& visible = inputs.view.visible;
         Scanned near = scanned, far = scanned;
         near.constants.segments = 1;
         near.constants.stride = scanned.averaging == Averaging::pyramid && scanned.constants.directions >= 16 ? 2 : 1;  // not in the paper's: half the time, 0.002
         near.constants.parts &= shared::kNearPart;
         far.constants.parts &= shared::kFarPart;
+        near.constants.side = far.constants.side = side;
         const graph::ImageId nearField = obscurance(graph, inputs, near, "far_field.near field");
         const graph::ImageId surfaces = graph.image("far_field.surfaces", {VK_FORMAT_R32G32_UINT, visible.x, visible.y});
         graph.pass("far_field.box average", m_boxAverage).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(surfaces)
-            .dispatch(visible.x, visible.y);
+            .constants(side).dispatch(visible.x, visible.y);
         const graph::ImageId parts = graph.image("far_field.parts", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
         graph.pass("far_field.obscurance", m_interleaved[uint32_t(far.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(surfaces).read(far.grids)
             .read(far.cells).read(far.table).write(parts).constants(far.constants).dispatch(visible.x, visible.y);
-        const graph::ImageId gathered = graph.image("far_field.gathered", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("far_field.gather", m_gather).read(inputs.viewBlock).read(surfaces).read(nearField).read(parts).write(gathered).dispatch(visible.x, visible.y);
+        const graph::ImageId gathered = m_gather.add(graph, inputs, parts, side, nearField);
         if (threshold <= 0.0f) return gathered;
         const graph::ImageId blurred = graph.image("far_field.blurred", graph.desc(gathered));
         graph.pass("far_field.blur", m_blur).read(gathered).write(blurred).constants(threshold).dispatch(visible.x, visible.y);
@@ -174,7 +176,8 @@ private:
 
     FalloffTable m_table;
     gpu::Program m_scan[4], m_obscurance[4], m_thin[4], m_interleaved[4];  // by averaging
-    gpu::Program m_prefix, m_pyramid, m_boxAverage, m_gather, m_blur;
+    gpu::Program m_prefix, m_pyramid, m_boxAverage, m_blur;
+    Gather m_gather;
 };
 
 }  // namespace

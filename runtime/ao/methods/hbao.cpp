@@ -5,7 +5,7 @@
 // where the neighbouring view ray meets the tangent plane, which is right under perspective. `axis`, `spacing` and
 // `sample_test` go further than the paper and are off by default, so that the yardstick stays the published one.
 //
-// Reads linear depth and normals, guard band included; writes visibility of the visible part; then the shared denoiser.
+// Reads linear depth and normals, guard band included; writes visibility of the visible part; then the shared gather and denoiser.
 #include "ao/resolve.h"
 
 namespace obscura::ao {
@@ -20,6 +20,7 @@ struct Constants {
     float spacing;
     uint32_t viewAxis;
     uint32_t sampleTest;
+    uint32_t side;    // of the interleaving tile
 };
 
 const char* const kAxes[] = {"camera", "view ray"};
@@ -31,6 +32,7 @@ const Parameter kParameters[] = {
     {"axis", "", 0, 1, 0, true, {kAxes, 2}, "What elevations are measured against: the camera's axis as in the paper, or each pixel's own view ray, which is right off the picture's centre."},
     {"sample_test", "", 0, 1, 0, true, {}, "1: a sample must stand above the tangent plane by the bias itself; nearest-texel samples then raise no horizon on a bare plane."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
+    kInterleave,
     {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
 };
 const Setting kFast[] = {{"directions", 8}, {"steps", 4}};
@@ -54,22 +56,26 @@ public:
         auto result = std::make_unique<Hbao>();
         if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp", {}, result->m_horizons) != gpu::Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
+        if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
         return result;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
-        const Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), values["bias"] * 0.017453293f, values["max_pixels"],
-                                  values["spacing"], values.count("axis"), values.count("sample_test")};
+        const uint32_t side = tileSide(values);
+        const Constants constants{inputs.falloff, sharedOut(values.count("directions"), side), values.count("steps"), values["bias"] * 0.017453293f, values["max_pixels"],
+                                  values["spacing"], values.count("axis"), values.count("sample_test"), side};
         const auto& visible = inputs.view.visible;
-        const graph::ImageId visibility = graph.image("hbao.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
+        graph::ImageId visibility = graph.image("hbao.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph.pass("hbao.horizons", m_horizons).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility)
             .constants(constants).dispatch(visible.x, visible.y);
+        if (side > 1) visibility = m_gather.add(graph, inputs, visibility, side);
         return values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "hbao.denoise") : visibility;
     }
 
 private:
     gpu::Program m_horizons;
     Denoise m_denoise;
+    Gather m_gather;
 };
 
 }  // namespace

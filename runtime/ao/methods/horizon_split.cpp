@@ -15,7 +15,7 @@
 //   than that is not concerned [sec. 5 names the trouble: figure 13's outliers]. In the paper everything is endlessly thick.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: horizons (1 - O_T),
-// normal rays (1 - O_N alone, and both), blur.
+// normal rays (1 - O_N alone, and both), gather when interleaved, blur.
 #include <algorithm>
 #include <iterator>
 
@@ -31,6 +31,7 @@ struct Constants {  // of horizons.comp and normal_rays.comp
     float spacing, jitter;
     float offset;     // pixels
     float horizonThickness, rayThickness;  // metres
+    uint32_t side;    // of the interleaving tile
 };
 
 enum Term : uint32_t { kBoth, kHorizon, kNormalRays, kMarching };
@@ -49,6 +50,7 @@ const Parameter kParameters[] = {
     {"offset", "px", 0, 4, 1, false, {}, "How far above the surface lines start; below 1 slanted planes shadow themselves."},
     {"jitter", "", 0, 1, 1, false, {}, "How much steps are shifted from pixel to pixel; 0 shows bands."},
     {"term", "", 0, 3, 0, true, {kTerms, 4}, "What is shown: the sum, one term alone, or rays through the whole hemisphere with no horizon at all."},
+    kInterleave,
     {"blur", "", 0, 2, 2, true, {kBlurs, 3}, "5x5 over the 4x4 noise tile: by depth as in the paper, or along the surface."},
 };
 const Setting kPaperFast[] = {{"directions", 6}, {"steps", 9}, {"normal_rays", 0}, {"thickness", 100}, {"horizon_thickness", 100}, {"spacing", 0}, {"blur", kDepthDeviation}};
@@ -78,21 +80,22 @@ public:
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
+        if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
         return result;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const uint32_t term = values.count("term");
+        const uint32_t term = values.count("term"), side = tileSide(values);
         const float reach = inputs.falloff.reach, radius = values["radius"] > 0.0f ? std::min(values["radius"], reach) : reach;
-        Constants constants{inputs.falloff, values.count("directions"), values.count("steps"), values.count("normal_rays"), radius,
+        Constants constants{inputs.falloff, sharedOut(values.count("directions"), side), values.count("steps"), values.count("normal_rays"), radius,
                             values["spacing"], values["jitter"], values["offset"],
-                            values["horizon_thickness"] * radius, values["thickness"] * radius};
+                            values["horizon_thickness"] * radius, values["thickness"] * radius, side};
         if (term == kHorizon) constants.rays = 0;
         if (term == kNormalRays || term == kMarching) constants.rays = std::max(constants.rays, 1u);
 
         const gpu::ImageDesc picture{VK_FORMAT_R16_SFLOAT, visible.x, visible.y};
-        const uint32_t words = (constants.directions + 3) / 4;  // four horizons each, two words beside each other
+        const uint32_t words = (constants.directions / (side * side) + 3) / 4;  // four horizons each, two words beside each other
         const graph::ImageId horizons = graph.image("horizon_split.horizon sines",
             {VK_FORMAT_R32_UINT, constants.rays ? visible.x * std::min(words, 2u) : 1, constants.rays ? visible.y * ((words + 1) / 2) : 1});
         graph::ImageId result = graph.image("horizon_split.below horizon", picture);
@@ -106,6 +109,7 @@ public:
                 .write(above).write(both).constants(constants).dispatch(visible.x, visible.y);
             result = term == kNormalRays ? above : both;
         }
+        if (side > 1) result = m_gather.add(graph, inputs, result, side);
         return blurred(graph, inputs, result, values.count("blur"));
     }
 
@@ -123,6 +127,7 @@ private:
     gpu::Program m_normalRays;
     gpu::Program m_blur;
     Denoise m_denoise;
+    Gather m_gather;
 };
 
 }  // namespace

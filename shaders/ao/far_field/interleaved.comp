@@ -1,7 +1,8 @@
-// Far obscurance of the sectors that are this pixel's: pixel g of each 3x3 does g, g + 9, g + 18 ... [Timonen 2013, sec. 10].
-// In: linear depth, averaged surfaces, directions, cells, the falloff's table. Out: far obscurance times sector widths, sector widths.
+// Far obscurance of the sectors that are this pixel's: share g of the tile's n^2 is g, g + n^2, g + 2 n^2 ... [Timonen 2013, sec. 10].
+// In: linear depth, averaged surfaces, directions, cells, the falloff's table. Out: far obscurance times sector widths, and these.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/tile.glsl"
 #include "ao/far_field/layout.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
@@ -24,12 +25,12 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     uvec2 surface = imageLoad(surfaces, p).xy;
-    float z = uintBitsToFloat(surface.y & ~511u);
+    float z = uintBitsToFloat(surface.y);
     vec2 sum = vec2(0.0);
     if (!isSky(view, z)) {
         Receiver r = receiverAt(view, p + ivec2(view.guard), z, unpackNormal(surface.x));
         Turn turn = turnOf(c);
-        for (uint k = uint(p.x % 3 + 3 * (p.y % 3)); k < c.directions; k += 9u) sum += sectorOf(r, k, c, turn, view.skyDepth);
+        for (uint k = shareOf(view, p, c.side); k < c.directions; k += c.side * c.side) sum += sectorOf(r, k, c, turn, view.skyDepth);
     }
-    imageStore(parts, p, vec4(sum, 0.0, 0.0));
+    imageStore(parts, p, vec4(2.0 * sum.x, sum.y, 0.0, 0.0));
 }

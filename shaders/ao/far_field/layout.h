@@ -32,8 +32,9 @@ struct FarFieldConstants {
     uint paired;         // 1: one walk serves two opposite directions
     float thickness;     // of surfaces, metres; 0: endless
     float jitter;        // of directions, parts of a sector
+    uint side;           // of the interleaving tile
 };
-OBSCURA_SHARED_SIZE(FarFieldConstants, 56);
+OBSCURA_SHARED_SIZE(FarFieldConstants, 60);
 
 OBSCURA_SHARED_END
 #endif

@@ -2,6 +2,7 @@
 // In: linear depth, packed normals (guard band included). Out: visibility, R16F. Formulas in runtime/ao/methods/hbao.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/tile.glsl"
 #include "shared/falloff.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
@@ -19,6 +20,7 @@ layout(push_constant) uniform Constants {
     float spacing;    // samples lie at mix(t, t^2, spacing) of the reach, t = (i + offset) / steps
     uint viewAxis;    // elevations over the plane across 0: the camera's axis, as the paper; 1: the pixel's own view ray
     uint sampleTest;  // 1: a sample counts only when it stands above the tangent plane by the bias itself
+    uint side;        // of the tile whose pixels share out the directions; 1: each does all
 };
 
 const float kTwoPi = 6.28318531;
@@ -67,8 +69,9 @@ void main() {
     float reach = min(rho.reach * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z), maxPixels);
     int tile = (texel.y & 3) * 4 + (texel.x & 3);
     vec3 shift = frameShift(view);
-    float rotation = fract((kRotation[tile] + 0.5) / 16.0 + shift.x);
-    float offset = fract((kOffset[tile] + 0.5) / 16.0 + shift.y);
+    vec2 noise = side > 1u ? latticeNoise(p).xy : (vec2(kRotation[tile], kOffset[tile]) + 0.5) / 16.0;
+    float rotation = fract(noise.x + shift.x);
+    float offset = fract(noise.y + shift.y);
     float stepPixels = max(reach / float(steps), 1.0);
     float span = stepPixels * float(steps);
     float inverseSteps = 1.0 / float(steps);
@@ -76,7 +79,8 @@ void main() {
     vec2 size = vec2(view.size);
 
     float blocked = 0.0;
-    for (uint k = 0u; k < directions; ++k) {
+    uint shares = side * side;
+    for (uint k = side > 1u ? shareOf(view, p, side) : 0u; k < directions; k += shares) {
         float angle = (float(k) + rotation) * kTwoPi / float(directions);
         vec2 direction = vec2(cos(angle), sin(angle));
         float tangent = tangentSine(view, here, n, v, pixel, direction);
@@ -96,5 +100,5 @@ void main() {
             horizon += gain;
         }
     }
-    imageStore(visibility, p, vec4(clamp(1.0 - blocked / float(directions), 0.0, 1.0)));
+    imageStore(visibility, p, vec4(clamp(1.0 - blocked / float(directions / shares), 0.0, 1.0)));
 }

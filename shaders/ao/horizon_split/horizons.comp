@@ -60,34 +60,34 @@ void main() {
     Lens lens = lensOf(view);
     vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
     Steps walk = stepsOf(steps, radius, spacing, horizonThickness);
-    float turn = 6.28318531 / float(directions);
-    vec2 direction = vec2(cos(noise.rotation * turn), sin(noise.rotation * turn));
-    mat2 next = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+    Share share = shareOfPixel(view, p, noise, directions, side);
+    vec2 direction = share.first;
+    uint count = share.count;
 
     float occlusion = 0.0;
     uint word = 0u;
     // Two lines at a time: a step waits for the one before it, and the other line's step fills the wait.
-    for (uint i = 0u; i < directions; i += 2u) {
+    for (uint i = 0u; i < count; i += 2u) {
         Line lines[2];
         for (uint k = 0u; k < 2u; ++k) {
             vec3 t = direction.x * origin.b + direction.y * origin.c;
             float at = mix(0.5, fract(noise.step + float(i + k) * kNextStep), jitter) * walk.part;
             lines[k] = Line(t, toPixels(lens, t), at, metresAt(walk, at), 0.0, 1.0, 1.0, 0.0);
-            direction = next * direction;
+            direction = share.next * direction;
         }
         for (uint j = 0u; j < walk.count; ++j) {
             march(lines[0], origin, start, up, lens, rho, walk);
             march(lines[1], origin, start, up, lens, rho, walk);
         }
-        if (i + 1u == directions) lines[1].sine = lines[1].occlusion = 0.0;  // an odd count's last line is alone
+        if (i + 1u == count) lines[1].sine = lines[1].occlusion = 0.0;  // an odd count's last line is alone
         occlusion += lines[0].occlusion + lines[1].occlusion;
         // Rounded up: no ray may start below the horizon, and both terms together stay at most 1.
         uvec2 sines = uvec2(ceil(vec2(lines[0].sine * lines[0].sine, lines[1].sine * lines[1].sine) * 255.0));
         word |= (min(sines.x, 255u) | min(sines.y, 255u) << 8) << (8u * (i & 2u));
-        if ((i & 2u) != 0u || i + 2u >= directions) {
+        if ((i & 2u) != 0u || i + 2u >= count) {
             if (rays != 0u) imageStore(horizons, wordAt(p, i >> 2, view.visible), uvec4(word));
             word = 0u;
         }
     }
-    imageStore(visibility, p, vec4(clamp(1.0 - occlusion / float(directions), 0.0, 1.0)));
+    imageStore(visibility, p, vec4(clamp(1.0 - occlusion / float(count), 0.0, 1.0)));
 }

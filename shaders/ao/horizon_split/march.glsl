@@ -2,6 +2,7 @@
 // eye space told as pixels. Lines are kept in homogeneous pixels, so that a step costs two additions and one division.
 #ifndef OBSCURA_HORIZON_SPLIT_MARCH_GLSL
 #define OBSCURA_HORIZON_SPLIT_MARCH_GLSL
+#include "ao/common/tile.glsl"
 #include "shared/falloff.h"
 #include "shared/view.h"
 
@@ -15,6 +16,7 @@ layout(push_constant) uniform Constants {  // of both passes
     float jitter;     // of steps, 0..1
     float offset;     // of lines from the surface, pixels
     float horizonThickness, rayThickness;  // of surfaces in the way of horizons and of rays, metres
+    uint side;        // of the tile whose pixels share out the directions; 1: each does all
 };
 
 // Two permutations of 0..15 over a 4x4 tile; the third noise is a third one. Values are (i + 0.5) / 16.
@@ -29,8 +31,21 @@ struct Noise {  // each in [0,1)
 };
 Noise noiseAt(View view, ivec2 texel) {
     int tile = (texel.y & 3) * 4 + (texel.x & 3);
-    vec3 noise = fract((vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0 + frameShift(view));
+    vec3 noise = side > 1u ? latticeNoise(texel) : (vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0;
+    noise = fract(noise + frameShift(view));
     return Noise(noise.x, noise.y, noise.z);
+}
+
+// A pixel's share of the directions: how many, the first one, and the turn from each to the next.
+struct Share {
+    uint count;
+    vec2 first;
+    mat2 next;
+};
+Share shareOfPixel(View view, ivec2 p, Noise noise, uint directions, uint side) {
+    float turn = 6.28318531 / float(directions), first = (noise.rotation + (side > 1u ? float(shareOf(view, p, side)) : 0.0)) * turn;
+    turn *= float(side * side);
+    return Share(directions / (side * side), vec2(cos(first), sin(first)), mat2(cos(turn), sin(turn), -sin(turn), cos(turn)));
 }
 
 // Where a pixel's lines start and around what they turn.

@@ -49,13 +49,13 @@ void main() {
     Lens lens = lensOf(view);
     vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
     Steps walk = stepsOf(steps, radius, spacing, rayThickness);
-    float turn = 6.28318531 / float(directions);
-    vec2 direction = vec2(cos(noise.rotation * turn), sin(noise.rotation * turn));
-    mat2 next = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+    Share part = shareOfPixel(view, p, noise, directions, side);
+    vec2 direction = part.first;
+    uint count = part.count;
 
     float occlusion = 0.0;
     uint word = 0u;
-    for (uint i = 0u; i < directions; ++i) {
+    for (uint i = 0u; i < count; ++i) {
         if ((i & 3u) == 0u) word = imageLoad(horizons, wordAt(p, i >> 2, view.visible)).x;
         float horizon2 = float(word & 255u) / 255.0;
         word >>= 8u;
@@ -69,9 +69,9 @@ void main() {
             vec3 ray = sqrt(max(1.0 - sine2, 0.0)) * along + sqrt(sine2) * up;
             occlusion += share * falloff(rho, blockedAt(lens, start, ray, walk, first));
         }
-        direction = next * direction;
+        direction = part.next * direction;
     }
-    occlusion /= float(directions);
+    occlusion /= float(count);
     imageStore(aboveHorizon, p, vec4(clamp(1.0 - occlusion, 0.0, 1.0)));
     imageStore(visibility, p, vec4(clamp(imageLoad(belowHorizon, p).x - occlusion, 0.0, 1.0)));
 }
