@@ -20,37 +20,37 @@ vec3 tableDifference(float phi1, float phi2, float v) {
 }
 
 struct Horizon {
-    float theta;    // zenith angle
+    float cosine;   // of its zenith angle
     vec2 point;     // the last visible point, from the receiver; (u, z)
     float follows;  // connection once there is such a point
     float blocked;  // what was gained, times |n_k|
 };
-Horizon horizonAt(float theta) { return Horizon(theta, vec2(0.0), 0.0, 0.0); }
+Horizon horizonAt(float cosine) { return Horizon(cosine, vec2(0.0), 0.0, 0.0); }
+
+// Whether `point`, from the receiver, raises the horizon. Four points in five do not, and they are told by this alone: walkers search for the
+// next that does, then raise(). What lies beyond the zenith (u < 0) belongs to other sectors.
+bool raises(Horizon h, vec2 point) { return point.x > 0.0 && point.y * inversesqrt(dot(point, point)) > h.cosine; }
 
 // `point` from the receiver, `slab` away from the camera (any length), both (u, z): along the sector and along the zenith. n: the normal
-// projected on this plane, not normalised. `exists` false: no point.
-void addPoint(inout Horizon h, vec2 point, vec2 slab, bool exists, vec2 n, float connection, float unit) {
-    exists = exists && point.x > 0.0;  // what lies beyond the zenith belongs to other sectors
+// projected on this plane, not normalised. `found` false: there was no such point.
+void raise(inout Horizon h, vec2 point, vec2 slab, bool found, vec2 n, float connection, float unit) {
     point.x = max(point.x, 1e-9);
     float length2 = dot(point, point), inverse = inversesqrt(length2);
-    vec2 to = point * inverse;
-    float theta = acosOf(to.y);
-    bool visible = exists && theta < h.theta;
-    vec2 before = h.point - point;
+    vec2 to = point * inverse, before = h.point - point;
     slab *= inversesqrt(max(dot(slab, slab), 1e-30));
     before *= inversesqrt(max(dot(before, before), 1e-30));
     vec2 line = mix(slab, before, h.follows);
     line *= inversesqrt(max(dot(line, line), 1e-30));
     float sine = line.x * to.y - line.y * to.x;  // of phi2 = c - theta
-    float phi2 = acosOf(dot(line, to)), phi1 = max(phi2 - (h.theta - theta), 0.0);
+    float phi2 = acosOf(dot(line, to)), phi1 = max(phi2 - (acosOf(h.cosine) - acosOf(to.y)), 0.0);
     float b = max(sine, 0.0) * length2 * inverse;
     vec3 a = tableDifference(min(phi1, phi2), phi2, b / (b + unit));
     vec2 twice = vec2(2.0 * line.x * line.y, line.y * line.y - line.x * line.x);  // sin 2c, cos 2c
     float gained = 0.5 * ((twice.x * n.y - twice.y * n.x) * a.y - (twice.y * n.y + twice.x * n.x) * a.z + n.x * a.x);
-    h.blocked += visible ? gained : 0.0;
-    h.theta = visible ? theta : h.theta;
-    h.point = visible ? point : h.point;
-    h.follows = visible ? connection : h.follows;
+    h.blocked += found ? gained : 0.0;
+    h.cosine = found ? to.y : h.cosine;
+    h.point = found ? point : h.point;
+    h.follows = found ? connection : h.follows;
 }
 
 #endif

@@ -31,7 +31,7 @@ struct Segment {
     float du, z0, dz;
     float origin;      // the receiver's z in the plane; its u is 0
     vec2 n;            // projected normal (u, z), not normalised
-    float start;       // zenith angle at which the tangent plane begins
+    float start;       // cosine of the zenith angle at which the tangent plane begins
     float weight;      // angle around the zenith [eq. 2: w_k]
     float exit;        // pixels along the direction to the picture's edge
     vec2 scale;
@@ -55,7 +55,7 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     s.du = g2 * perStep * sine2 * inverse * stretch;
     s.dz = g2 * perStep * ez * stretch * r.scale.x;
     s.n = vec2((dot(r.n.xy, e) - ez * r.nz) * inverse, r.nz);
-    s.start = acosOf(-s.n.x * inversesqrt(max(dot(s.n, s.n), 1e-20)));
+    s.start = -s.n.x * inversesqrt(max(dot(s.n, s.n), 1e-20));
     // Azimuths differ by the angle between the projections of the segment's two sides onto the plane across the zenith.
     s.weight = atanOf(2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
     vec2 room = mix(r.pixel, r.size - r.pixel, greaterThan(along, vec2(0.0))) / max(abs(along), vec2(1e-6));
@@ -63,9 +63,11 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     s.scale = r.scale;
     return s;
 }
-// From the camera. The slab's direction is this with u scaled by s.scale.x.
+// From the receiver.
 vec2 pointAt(Segment s, float depth, float r) {
-    return vec2((depth * s.scale.x + s.scale.y) * r * s.du, depth * (s.z0 + r * s.dz));
+    return vec2((depth * s.scale.x + s.scale.y) * r * s.du, depth * (s.z0 + r * s.dz) - s.origin);
 }
+// The direction away from the camera at such a point, any length.
+vec2 slabAt(Segment s, vec2 point) { return vec2(point.x * s.scale.x, point.y + s.origin); }
 
 #endif

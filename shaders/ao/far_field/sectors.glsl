@@ -44,24 +44,14 @@ struct Met {
     Horizon horizon;
     Bins bins;
 };
-void add(inout Met met, Segment s, FarFieldConstants c, float depth, float r, bool exists) {
-    vec2 fromCamera = pointAt(s, depth, r), point = fromCamera - vec2(0.0, s.origin), slab = vec2(fromCamera.x * s.scale.x, fromCamera.y);
-    if (kThin != 0u) addSlab(met.bins, point, normalize(slab), c.thickness, exists, s.n, c.unit);
-    else addPoint(met.horizon, point, slab, exists, s.n, c.connection, c.unit);
+// Whether a point that exists may block anything; add() it if so.
+bool counts(Met met, vec2 point) { return kThin != 0u || raises(met.horizon, point); }
+void add(inout Met met, Segment s, FarFieldConstants c, vec2 point, bool found, float share) {
+    vec2 slab = slabAt(s, point);
+    if (kThin != 0u) addSlab(met.bins, point, normalize(slab), c.thickness, found, s.n * share, c.unit);
+    else raise(met.horizon, point, slab, found, s.n * share, c.connection, c.unit);
 }
 float blockedOf(Met met) { return kThin != 0u ? met.bins.sum : met.horizon.blocked; }
-
-// `taps` samples over the first `reach` pixels, denser near the receiver.
-void nearField(inout Met met, Segment s, Receiver r, FarFieldConstants c, float reach, float skyDepth) {
-    ivec2 last = ivec2(r.size) - 1;
-    float part = 1.0 / float(c.taps);
-    for (uint i = 0u; i < c.taps; ++i) {
-        float t = (float(i) + 0.6) * part;
-        t = max(reach * t * sqrt(t), 0.7);
-        float z = imageLoad(depth, clamp(ivec2(r.pixel + t * s.along), ivec2(0), last)).x;
-        add(met, s, c, z, t, t < s.exit && z < skyDepth);
-    }
-}
 
 // (unit / depth, pixels along the direction from the grid's start) of interval j of level n between lines `from` and `to`.
 vec2 cellAt(Place at, FarFieldConstants c, uint n, uint j, float middle, float from, float to) {
@@ -89,34 +79,53 @@ vec2 cellAt(Place at, FarFieldConstants c, uint n, uint j, float middle, float f
     return vec2(point.x, point.y + at.d.origin.x);
 }
 
-// `low` and `high`: the segment's sides, lines per pixel of distance.
-void farField(inout Met met, Segment s, Receiver r, Place at, FarFieldConstants c, float low, float high) {
-    uint end = uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals)));
-    uint j = at.first;
-    float nothing = kAveraging == kDirect ? c.unit / viewBlock.skyDepth : 0.0;  // the sky's unit / depth
-    while (j < end) {
-        float gap = float(j) - at.along / c.interval;  // in intervals; the longest that is aligned and not longer than its distance
-        uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
-        float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
-        vec2 cell = kAveraging == kDirect ? vec2(c.unit / imageLoad(depth, clamp(ivec2(r.pixel + away * s.along), ivec2(0), ivec2(r.size) - 1)).x, middle)
-                                          : cellAt(at, c, n, j >> n, middle, at.line + low * away, at.line + high * away);
-        add(met, s, c, c.unit / max(cell.x, 1e-9), cell.y - at.along, cell.x > nothing && (kAveraging != kDirect || away < s.exit));
-        j += 1u << n;
-    }
+// A point of a segment, from the receiver, and whether it counts.
+struct Found {
+    vec2 point;
+    bool is;
+};
+
+// Sample i of `taps` over the first `reach` pixels, denser near the receiver.
+Found nearPoint(Met met, Segment s, Receiver r, FarFieldConstants c, uint i, float reach, float skyDepth) {
+    float t = (float(i) + 0.6) / float(c.taps);
+    t = max(reach * t * sqrt(t), 0.7);
+    float z = imageLoad(depth, clamp(ivec2(r.pixel + t * s.along), ivec2(0), ivec2(r.size) - 1)).x;
+    vec2 point = pointAt(s, z, t);
+    return Found(point, t < s.exit && z < skyDepth && counts(met, point));
+}
+
+// Interval j or the longest that begins there, is aligned and not longer than its distance; j goes on behind it. `low` and `high`: the
+// segment's sides, lines per pixel of distance.
+Found farPoint(Met met, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float nothing) {
+    float gap = float(j) - at.along / c.interval;  // in intervals
+    uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
+    float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
+    vec2 cell = kAveraging == kDirect ? vec2(c.unit / imageLoad(depth, clamp(ivec2(r.pixel + away * s.along), ivec2(0), ivec2(r.size) - 1)).x, middle)
+                                      : cellAt(at, c, n, j >> n, middle, at.line + low * away, at.line + high * away);
+    vec2 point = pointAt(s, c.unit / max(cell.x, 1e-9), cell.y - at.along);
+    j += 1u << n;
+    return Found(point, cell.x > nothing && (kAveraging != kDirect || away < s.exit) && counts(met, point));
 }
 
 // Obscurance of direction k, not yet over pi, and the sector's width around the zenith.
 vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth) {
     Place at = placeOf(directionsOf[k], r, c);
     vec2 sum = vec2(0.0), along = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * at.d.along;
-    float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments);
-    for (uint i = 0u; i < c.segments; ++i) {
+    float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments), reach = float(at.first) * c.interval - at.along;
+    float nothing = kAveraging == kDirect ? c.unit / skyDepth : 0.0;  // the sky's unit / depth
+    for (uint segment = 0u; segment < c.segments; ++segment) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
         Met met = Met(horizonAt(s.start), binsBelow(s.start));
-        nearField(met, s, r, c, float(at.first) * c.interval - at.along, skyDepth);
-        float before = (c.parts & kNearPart) != 0u ? 0.0 : blockedOf(met);
-        if ((c.parts & kFarPart) != 0u) farField(met, s, r, at, c, low, low + step);
-        sum += s.weight * vec2(blockedOf(met) - before, 1.0);
+        uint i = 0u, j = at.first, end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
+        float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of what the near field blocks; it raises the horizon in any case
+        while (i < c.taps || j < end) {  // first to the next point that counts, then what it blocks: neighbouring pixels do either together
+            Found found = Found(vec2(0.0), false);
+            while (!found.is && i < c.taps) found = nearPoint(met, s, r, c, i++, reach, skyDepth);
+            bool isFar = !found.is;
+            while (!found.is && j < end) found = farPoint(met, s, r, at, c, j, low, low + step, nothing);
+            add(met, s, c, found.point, found.is, isFar ? 1.0 : share);
+        }
+        sum += s.weight * vec2(blockedOf(met), 1.0);
         low += step;
         along = mat2(turn.next, vec2(-turn.next.y, turn.next.x)) * along;
     }

@@ -11,7 +11,7 @@ struct Bins {
     float step;    // angle of a bin; bin i is centred at (i + 0.5) step from the zenith
     float sum;     // what was gained, times |n_k|
 };
-Bins binsBelow(float start) { return Bins(0u, start / 32.0, 0.0); }
+Bins binsBelow(float cosine) { return Bins(0u, acosOf(cosine) / 32.0, 0.0); }
 
 float angleOf(vec2 v) { return acosOf(v.y * inversesqrt(max(dot(v, v), 1e-30))); }
 

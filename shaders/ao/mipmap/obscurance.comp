@@ -45,21 +45,27 @@ void main() {
         float edge = s.exit - 0.5, t = 1.0, step = 1.0;
         bool more = true;
         while (more) {
-            more = t < edge;
-            float at = min(t, edge);
-            float level = log2(max(width * at, 1.0)), sampled;
-            vec2 where = r.pixel + at * s.along;
-            if (kThin != 0u) {
-                int mip = min(int(level + 0.5), textureQueryLevels(pyramid) - 1);
-                sampled = texelFetch(pyramid, min(ivec2(where) >> mip, textureSize(pyramid, mip) - 1), mip).x;
-            } else {
-                sampled = textureLod(pyramid, where * texelSize, level).x;
+            vec2 point;
+            bool found = false;
+            while (!found && more) {
+                more = t < edge;
+                float at = min(t, edge);
+                float level = log2(max(width * at, 1.0)), sampled;
+                vec2 where = r.pixel + at * s.along;
+                if (kThin != 0u) {
+                    int mip = min(int(level + 0.5), textureQueryLevels(pyramid) - 1);
+                    sampled = texelFetch(pyramid, min(ivec2(where) >> mip, textureSize(pyramid, mip) - 1), mip).x;
+                } else {
+                    sampled = textureLod(pyramid, where * texelSize, level).x;
+                }
+                point = pointAt(s, sampled, at);
+                found = sampled < view.skyDepth && (kThin != 0u || raises(h, point));
+                step *= growth;
+                t += step;
             }
-            vec2 fromCamera = pointAt(s, sampled, at), point = fromCamera - vec2(0.0, s.origin), slab = vec2(fromCamera.x * s.scale.x, fromCamera.y);
-            if (kThin != 0u) addSlab(bins, point, normalize(slab), thick, sampled < view.skyDepth, s.n, metres);
-            else addPoint(h, point, slab, sampled < view.skyDepth, s.n, 0.0, metres);
-            step *= growth;
-            t += step;
+            vec2 slab = slabAt(s, point);
+            if (kThin != 0u) addSlab(bins, point, normalize(slab), thick, found, s.n, metres);
+            else raise(h, point, slab, found, s.n, 0.0, metres);
         }
         sum += s.weight * vec2(kThin != 0u ? bins.sum : h.blocked, 1.0);
         along = next * along;
