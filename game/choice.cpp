@@ -145,6 +145,12 @@ void Choice::read(const std::string& text) {
     }
 }
 
+void Choice::assignToAll(const std::string& parameter, const std::string& value) {
+    assign(parameter + "=" + value);
+    for (ao::Values& values : m_values)
+        if (values.has(parameter.c_str())) values.set(parameter.c_str(), this->values()[parameter.c_str()]);
+}
+
 void Choice::setFalloff(const std::string& text) {
     if (ao::parseFalloff(text.c_str(), falloff)) return;
     const std::string kind = text.substr(0, text.find(':'));

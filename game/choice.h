@@ -23,6 +23,7 @@ public:
     void select(const std::string& id);
     void applyPreset(const std::string& id);        // to the selected method, from its initial values on
     void assign(const std::string& assignment);     // "METHOD.PARAMETER=VALUE", or "PARAMETER=VALUE" for the selected one
+    void assignToAll(const std::string& parameter, const std::string& value);  // and to every other method that has it
     void setFalloff(const std::string& text);
     void read(const std::string& text);             // "METHOD[:PRESET][,PARAMETER=VALUE...]", as --compare takes it
 

@@ -65,7 +65,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
                "\nExit codes: 0 done, 1 the machine could not do it, 2 bad input, 3 the validation layer complained\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::string method, preset, falloff, compare, view = "final", size, camera, eye, target;
+    std::string method, preset, offscreen, falloff, compare, view = "final", size, camera, eye, target;
     std::vector<std::string> assignments;
     bool headless = false, listMethods = false, listScenes = false, listDevices = false, flythrough = false, noVsync = false;
     uint32_t frames = 1, switchTest = 0;
@@ -77,6 +77,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--preset", preset, "Preset of that method")->group(kPicture);
     cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
         ->group(kPicture)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)")
+        ->group(kPicture);
     cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kPicture);
     cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signed-difference, or pass:NAME")
         ->group(kPicture)->capture_default_str();
@@ -155,6 +157,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*fovOption) options.camera.fovDegrees = fov;
     if (!method.empty()) options.choice.select(method);
     if (!preset.empty()) options.choice.applyPreset(preset);
+    if (!offscreen.empty()) options.choice.assignToAll("offscreen", offscreen);
     for (const std::string& assignment : assignments) options.choice.assign(assignment);
     if (!falloff.empty()) options.choice.setFalloff(falloff);
     if (!render::parseView(view, options.view, options.passView)) {

@@ -22,7 +22,8 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 }  // namespace
 
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
-    m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
+    m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok && OffScreenPass::create(device, shaders, m_offScreen) == Status::ok &&
+              Temporal::create(device, shaders, m_temporal) == Status::ok;
 }
 
 Library::~Library() = default;
@@ -67,8 +68,13 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     m_hasLast = true;
     if (inputsOut) *inputsOut = inputs;
     graph::ImageId visibility;
-    for (size_t i = 0; i < registry().size(); ++i)
-        if (registry()[i].info == &values.info()) visibility = m_methods[i]->add(graph, inputs, values);
+    for (size_t i = 0; i < registry().size(); ++i) {
+        if (registry()[i].info != &values.info()) continue;
+        visibility = m_methods[i]->add(graph, inputs, values);
+        if (visibility && values.has("offscreen"))
+            visibility = m_offScreen.add(graph, inputs, visibility, m_methods[i]->blocking(inputs, values),
+                                         {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
+    }
     if (!visibility || !values.info().needs) return visibility;
     TemporalSettings temporal;
     temporal.history = values["temporal"];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ao/method.h"
+#include "ao/offscreen.h"
 #include "ao/prepare.h"
 #include "ao/resolve.h"
 
@@ -30,6 +31,7 @@ private:
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
     Prepare m_prepare;
+    OffScreenPass m_offScreen;
     Temporal m_temporal;
     std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
     const MethodInfo* m_last = nullptr;

@@ -2,6 +2,7 @@
 // methods/hbao.cpp, add a file beside it, a folder of shaders and one line in registry.cpp.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,6 +42,7 @@ public:
     explicit Values(const MethodInfo& info);                     // initial values
     bool apply(const Preset& preset);
     bool set(const char* id, float value);                       // clamped; false: unknown id
+    bool has(const char* id) const;
     float operator[](const char* id) const;                      // asserts that it exists
     uint32_t count(const char* id) const { return uint32_t((*this)[id] + 0.5f); }
     const MethodInfo& info() const { return *m_info; }
@@ -52,11 +54,21 @@ private:
     std::vector<float> m_values;
 };
 
+// What of the depth buffer a method takes for solid: a point is blocked where the surface that the picture shows there is nearer to the
+// receiver than `reach` and less than `thickness` before the point. Off-screen occluders (offscreen.h) leave such points to the method.
+struct Blocking {
+    static constexpr float kEndless = std::numeric_limits<float>::infinity();
+    float reach = kEndless, thickness = kEndless;  // metres
+};
+
 class Method {
 public:
     virtual ~Method() = default;
     // Adds passes; returns visibility, R16F, view.visible in size. Called every frame.
     virtual graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) = 0;
+    // The default is a horizon method's: what is within reach hides all that is behind it. One that gives surfaces a thickness says
+    // which; one that takes even the farthest for solid says endless reach, and nothing hidden is added to it.
+    virtual Blocking blocking(const Inputs& inputs, const Values&) const { return {inputs.falloff.reach, Blocking::kEndless}; }
     // Histories, if any, are void after this: camera cut, method switch.
     virtual void reset() {}
 };
@@ -65,8 +77,13 @@ struct MethodEntry {
     const MethodInfo* info;
     // Null, with a log line, when a pipeline cannot be made.
     std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders);
+    // What these settings need beyond the table's Needs; may be null.
+    uint32_t (*needs)(const Values& values) = nullptr;
 };
 std::span<const MethodEntry> registry();
+
+// Needs of a method with these settings: a renderer asks before it makes motion, layers or a volume.
+uint32_t needs(const Values& values);
 
 std::span<const gpu::EmbeddedShader> shaders();  // this room's, for ShaderLibrary::add
 

@@ -26,12 +26,23 @@ const Parameter kShared[] = {
     {"temporal_clip", "sd", 0, 8, 1.5f, false, {}, "The past is drawn into so many standard deviations of the present around; 0 lets moved occluders trail."},
 };
 
-// A method's own table with the shared one behind it.
+// And what every method has that looks at the screen alone: the off-screen pass, before the temporal one.
+const char* const kOffScreen[] = {"off", "offscreen", "hidden"};
+const Parameter kUnseen[] = {
+    {"offscreen", "", 0, 2, 0, true, {kOffScreen, 3}, "Occluders from voxels of the world that the picture does not show: those outside of it, or those hidden in it as well."},
+    {"offscreen_rays", "", 4, 64, 16, true, {}, "Rays through the voxels, for a quarter of the pixels; cost grows with rays x reach / stride."},
+    {"offscreen_stride", "cells", 0.5f, 8, 1.25f, false, {}, "How far such a ray steps; longer ones miss walls, which are a cell thick where they lie along the grid."},
+};
+
+bool seesTheScreenAlone(const MethodInfo& info) { return info.needs && !(info.needs & kVolume); }
+
+// A method's own table with the shared ones behind it.
 struct Composed {
     std::vector<Parameter> parameters;
     MethodInfo info;
     explicit Composed(const MethodInfo& own) : info(own) {
         parameters.assign(own.parameters.begin(), own.parameters.end());
+        if (seesTheScreenAlone(own)) parameters.insert(parameters.end(), std::begin(kUnseen), std::end(kUnseen));
         if (own.needs) parameters.insert(parameters.end(), std::begin(kShared), std::end(kShared));
         info.parameters = {parameters.data(), parameters.size()};
     }
@@ -64,6 +75,15 @@ const MethodInfo* findMethod(const char* id) {
     return nullptr;
 }
 
+uint32_t needs(const Values& values) {
+    const MethodInfo& info = values.info();
+    uint32_t result = info.needs;
+    if (values.has("offscreen") && values["offscreen"] > 0.0f) result |= kVolume;
+    for (const MethodEntry& entry : registry())
+        if (entry.info == &info && entry.needs) result |= entry.needs(values);
+    return result;
+}
+
 // ---- Values ---------------------------------------------------------------------------------------------------------
 
 Values::Values(const MethodInfo& info) : m_info(&info) {
@@ -87,6 +107,10 @@ bool Values::set(const char* id, float value) {
         return true;
     }
     return false;
+}
+
+bool Values::has(const char* id) const {
+    return std::any_of(m_info->parameters.begin(), m_info->parameters.end(), [id](const Parameter& parameter) { return std::strcmp(parameter.id, id) == 0; });
 }
 
 float Values::operator[](const char* id) const {

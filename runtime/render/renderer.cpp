@@ -220,7 +220,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
 
     ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
     ao::Sources sources{g.depth, g.geometric, g.motion};
-    const uint32_t needs = options.method->info().needs | (options.compare ? options.compare->info().needs : 0);
+    const uint32_t needs = ao::needs(*options.method) | (options.compare ? ao::needs(*options.compare) : 0);
     if (needs & ao::kVolume) {
         const VoxelVolume::Scene scene{world, options.time, options.camera, impl.actors.drawables(), posed, !options.skipMasked};
         sources.volume = impl.voxels.add(graph, scene, options.voxels, aoFrame.volume);

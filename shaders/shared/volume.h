@@ -19,6 +19,8 @@ OBSCURA_SHARED_END
 vec3 cellOf(Volume v, vec3 eye) { return vec3(dot(v.rows[0], vec4(eye, 1)), dot(v.rows[1], vec4(eye, 1)), dot(v.rows[2], vec4(eye, 1))); }
 // Cells a metre along an eye-space direction.
 vec3 cellsAlong(Volume v, vec3 d) { return vec3(dot(v.rows[0].xyz, d), dot(v.rows[1].xyz, d), dot(v.rows[2].xyz, d)); }
+// And back: the eye-space direction of a unit vector along the cells' axes.
+vec3 eyeAlong(Volume v, vec3 d) { return (v.rows[0].xyz * d.x + v.rows[1].xyz * d.y + v.rows[2].xyz * d.z) * v.anchor.w; }
 // The word and the bit in it of a cell. Any cell has one: ask insideVolume() first.
 uint wordOf(Volume v, uvec3 cell) {
     uvec3 p = (cell + v.shift.xyz) & (v.shift.w - 1u);

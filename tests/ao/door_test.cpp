@@ -139,6 +139,30 @@ TEST_F(DoorTest, motionIsScaledToPixelsAndACutForgets) {
     m_device.waitIdle();
 }
 
+// What the host's volume holds beside the picture counts; without one the method stands alone and a line says so.
+TEST_F(DoorTest, offScreenOccludersComeFromTheVolume) {
+    const std::vector<float> alone = pixels(once(frame()));
+    const Setting hidden{"offscreen", 2.0f};
+    MethodSettings settings;
+    settings.settings = {&hidden, 1};
+    ASSERT_EQ(setMethod(m_context, "hbao", settings), Status::ok);
+    const std::vector<float> both = pixels(once(frame()));
+    ASSERT_EQ(both.size(), alone.size());
+    size_t darker = 0;
+    for (size_t i = 0; i < both.size(); ++i) {
+        EXPECT_LE(both[i], alone[i] + 1e-3f);
+        darker += both[i] < alone[i] - 0.02f;
+    }
+    EXPECT_GT(darker, 20u);  // where the wall goes on beyond the picture's edge
+    Frame f = frame();
+    f.volume = {};
+    const Output output = once(f);
+    EXPECT_EQ(output.status, Status::ok);
+    EXPECT_TRUE(said("brings no volume"));
+    EXPECT_EQ(pixels(output).size(), alone.size());
+    m_device.waitIdle();
+}
+
 TEST_F(DoorTest, aResizeGivesThePictureOfTheNewSize) {
     ASSERT_EQ(once(frame()).status, Status::ok);
     m_device.waitIdle();

@@ -107,7 +107,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-evaluate --renew-baseline tests/accuracy/baseline.json");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     std::vector<std::string> methods{"hbao"}, presets{"default"}, falloffTexts, cameras, references, sets;
-    std::string size, channel, page, check, renew, capture;
+    std::string size, channel, page, check, renew, capture, offscreen;
     float time = 0.0f;
     bool list = false, scenesListed = false, noCache = false;
     const auto takeAll = [](CLI::Option* option) {
@@ -134,6 +134,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)");
     takeAll(cli.add_option("--falloff", falloffTexts,
                            "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
     auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported (12; --gallery 7)")
@@ -199,6 +200,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (!*methodOption) methods = {"all"};
         if (!*presetOption) presets = {"all"};
     }
+    if (!offscreen.empty()) sets.insert(sets.begin(), "offscreen=" + offscreen);
     options.capture = capture;
     if (!capture.empty()) {
         if (cameras.size() > 1) throw Complaint("--camera: a captured frame has one camera, FILE.json");

@@ -120,9 +120,9 @@ void captureShot(Machine& machine, const Options& options, const TakeShot& take)
     }
     constexpr uint32_t kNotCaptured = ao::kMotion | ao::kLayers | ao::kVolume;
     for (const Candidate& candidate : options.candidates)
-        if (candidate.info().needs & kNotCaptured & ~uint32_t(ao::kMotion))
+        if (ao::needs(candidate.values) & kNotCaptured & ~uint32_t(ao::kMotion))
             throw Complaint(fmt::format("--method {}: needs what a captured frame does not hold (layers or a volume); judge it on a --scene",
-                                        candidate.info().id));
+                                        candidate.label()));
     shot.library = &machine.library();
     const std::shared_ptr<OnGpu> images = onGpu(machine.device(), shot.frame);
     shot.add = [&library = machine.library(), images](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {

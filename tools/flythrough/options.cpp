@@ -65,7 +65,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-flythrough --merge /share/run/part-0,/share/run/part-1 --out /share/run/all");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     std::vector<std::string> methods{"hbao"}, presets{"default"}, sets, filters{"raw", "spatial", "temporal"}, merged;
-    std::string size, frames, falloff, out = "out/flythrough", check, renew;
+    std::string size, frames, falloff, offscreen, out = "out/flythrough", check, renew;
     bool list = false, noPictures = false, noVideo = false, noCache = false;
     const auto takeAll = [](CLI::Option* option) {
         return option->delimiter(',')->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -84,6 +84,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)");
     takeAll(cli.add_option("--filter", filters, "raw (no blur, no history), spatial (the preset's own blur), temporal (and a history)")->capture_default_str());
     cli.add_option("--falloff", falloff, "KIND:LENGTH instead of the flythrough's own");
     cli.add_option("--rays", options.settings.rays, "Rays a pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
@@ -136,6 +137,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         for (const Script& script : scripts()) options.flythroughs.push_back(script.name);
     }
     for (const std::string& flythrough : options.flythroughs) findScript(flythrough);
+    if (!offscreen.empty()) sets.insert(sets.begin(), "offscreen=" + offscreen);
     options.candidates = evaluate::candidates(methods, presets, sets);
     for (const std::string& filter : filters) options.filters.push_back(filterOf(filter));
     if (*sizeOption) options.settings.size = app::sizeOf(size);

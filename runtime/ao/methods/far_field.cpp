@@ -134,6 +134,11 @@ public:
         return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
     }
 
+    // Scans have no end: the farthest surface hides what is behind it.
+    Blocking blocking(const Inputs&, const Values& values) const override {
+        return {Blocking::kEndless, values["thickness"] > 0.0f ? values["thickness"] : Blocking::kEndless};
+    }
+
 private:
     struct Scanned {
         graph::BufferId grids, cells;

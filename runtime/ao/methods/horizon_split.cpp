@@ -87,7 +87,7 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const uint32_t term = values.count("term"), side = tileSide(values);
-        const float reach = inputs.falloff.reach, radius = values["radius"] > 0.0f ? std::min(values["radius"], reach) : reach;
+        const float radius = radiusOf(inputs, values);
         Constants constants{inputs.falloff, sharedOut(values.count("directions"), side), values.count("steps"), values.count("normal_rays"), radius,
                             values["spacing"], values["jitter"], values["offset"],
                             values["horizon_thickness"] * radius, values["thickness"] * radius, side};
@@ -113,7 +113,18 @@ public:
         return blurred(graph, inputs, result, values.count("blur"));
     }
 
+    // The horizon hides all behind it, though surfaces thin out for what bends it and for rays; marching alone has no horizon.
+    Blocking blocking(const Inputs& inputs, const Values& values) const override {
+        const float radius = radiusOf(inputs, values);
+        return values.count("term") == kMarching ? Blocking{Blocking::kEndless, values["thickness"] * radius} : Blocking{radius, Blocking::kEndless};
+    }
+
 private:
+    static float radiusOf(const Inputs& inputs, const Values& values) {
+        const float reach = inputs.falloff.reach;
+        return values["radius"] > 0.0f ? std::min(values["radius"], reach) : reach;
+    }
+
     graph::ImageId blurred(graph::Graph& graph, const Inputs& inputs, graph::ImageId source, uint32_t blur) {
         if (blur == kNone) return source;
         if (blur == kSurface) return m_denoise.add(graph, inputs, source, "horizon_split.blur");

@@ -67,6 +67,10 @@ public:
         return visibility;
     }
 
+    Blocking blocking(const Inputs&, const Values& values) const override {
+        return {Blocking::kEndless, values["thickness"] > 0.0f ? values["thickness"] : Blocking::kEndless};
+    }
+
 private:
     FalloffTable m_table;
     gpu::Program m_base, m_reduce, m_obscurance[2];  // endless, thin

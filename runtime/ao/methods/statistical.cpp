@@ -121,6 +121,9 @@ public:
         return visibility;
     }
 
+    // All below the mean height is taken for filled, however far in front it was seen.
+    Blocking blocking(const Inputs&, const Values&) const override { return {}; }
+
 private:
     void addUniform(graph::Graph& graph, const Inputs& inputs, const EvaluateConstants& evaluate, const Tables& t, uint32_t layers, uint32_t quadrants,
                     graph::ImageId visibility) {

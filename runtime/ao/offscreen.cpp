@@ -1,0 +1,49 @@
+#include "ao/offscreen.h"
+
+#include <algorithm>
+
+namespace obscura::ao {
+namespace {
+
+struct Trace {  // trace.comp
+    shared::FalloffBlock falloff;
+    uint32_t rays;
+    float stride;
+    uint32_t scale, hidden;
+    float offset, grain, reach, thickness;
+};
+
+constexpr uint32_t kScale = 2;      // a map of a quarter of the pixels
+constexpr float kOffset = 2.0f;     // cells; a plane's own conservative cells end sqrt(3) above it
+constexpr float kGrain = 0.1f;      // metres a cell of the noise
+constexpr float kWindow = 16.0f;    // px
+constexpr float kRange = 0.25f;     // of the falloff's reach
+constexpr float kFarthest = 1e18f;  // its square is a float
+
+}  // namespace
+
+Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out) {
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace) != gpu::Status::ok) return Status::shaderError;
+    return Upsample::create(device, shaders, out.m_upsample);
+}
+
+graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const Blocking& blocking,
+                                  const OffScreenSettings& settings) {
+    if (settings.what == OffScreen::off) return visibility;
+    if (!inputs.volume) {
+        if (!m_said) graph.device().log(gpu::Severity::warning, "offscreen: the frame brings no volume, so only what the picture shows is counted");
+        m_said = true;
+        return visibility;
+    }
+    const auto& visible = inputs.view.visible;
+    const uint32_t width = (visible.x + kScale - 1) / kScale, height = (visible.y + kScale - 1) / kScale;
+    const graph::ImageId map = graph.image("offscreen.map", {VK_FORMAT_R16_SFLOAT, width, height});
+    const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
+    const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, 1.0f / kGrain,
+                      std::min(blocking.reach, kFarthest), blocking.thickness};
+    graph.pass("offscreen.trace", m_trace).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
+        .read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
+    return m_upsample.add(graph, inputs, {map, receivers}, {kScale, kWindow, kRange * inputs.falloff.reach}, "offscreen", visibility);
+}
+
+}  // namespace obscura::ao
