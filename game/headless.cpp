@@ -8,6 +8,8 @@
 #include "app/files.h"
 #include "app/progress.h"
 #include "jobs.h"
+#include "measures.h"
+#include "recording.h"
 #include "report.h"
 
 namespace obscura::game {
@@ -50,8 +52,11 @@ int runHeadless(const Options& options) {
     // Whatever can fail early does, before minutes of work.
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
     if (!options.out.empty()) app::expectFolder(options.out);
-    Stage stage(options.scene);
+    Stage stage(options.scene, options.bare);
     stage.camera(options.camera, options.time);
+    const bool replay = options.camera.replay;
+    const float start = replay ? options.camera.start.value_or(stage.pathOf(options.camera.file).keys.front().time) : options.time;
+    const auto timeAt = [&](uint32_t frame) { return replay ? replayTime(start, frame) : start + float(frame) * options.step; };
     for (const std::string& remark : stage.remarks) fmt::print(stderr, "obscura: {}\n", remark);
     stage.dropToys(options.toys, options.time);
 
@@ -66,12 +71,14 @@ int runHeadless(const Options& options) {
         return closingWords(options, engine);
     }
 
-    const uint32_t frames = options.frames.value_or(1);
+    const uint32_t frames = options.frames.value_or(replay ? replayFrames(stage.pathOf(options.camera.file), start) : 1);
     app::Statistics statistics(1u << 20);
     Report report{options, engine, stage, statistics, frames, frames > kSettling ? kSettling : 0, {}};
     const std::vector<uint32_t> shown = options.out.empty() ? std::vector<uint32_t>() : reportFrames(frames);
-    for (const uint32_t frame : shown) report.pictures.push_back({frame, options.time + float(frame) * options.step, {}, {}});
+    for (const uint32_t frame : shown) report.pictures.push_back({frame, timeAt(frame), {}, {}});
 
+    std::optional<Measures> measures;
+    if (options.measure) measures.emplace(0);
     graph::Graph& graph = engine.graph();
     {
         app::Progress progress("rendering", frames);
@@ -83,7 +90,7 @@ int runHeadless(const Options& options) {
             if (i == report.dropped) firstMeasured = engine.device().frame();
             if (i >= report.dropped && graph.timings().frame >= firstMeasured) statistics.add(graph.timings());
 
-            const float time = options.time + float(i) * options.step;
+            const float time = timeAt(i);
             render::FrameOptions frame;
             frame.visible = options.size;
             frame.guard = options.guard;
@@ -100,8 +107,10 @@ int runHeadless(const Options& options) {
             frame.cut = i == 0;
             frame.skipMasked = options.skipMasked;
             frame.voxels = options.voxels;
+            frame.sampleStep = measures ? measuredStep(options.size) : 0;
             const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
             if (i == 0) expectPass(options, graph);
+            if (measures) engine.expect(readInto(*measures, engine.capture(), graph, outputs, measuredFrame(frame, stage.world, i)), "reading samples back");
             graph.output(outputs.color);
 
             const auto place = std::find(shown.begin(), shown.end(), i);
@@ -130,12 +139,15 @@ int runHeadless(const Options& options) {
             engine.expect(engine.frames().end(graph), "finishing");
         }
     }
+    if (measures) measures->finish();
+    if (measures && !options.out.empty()) app::writeFile(options.out / "measures.csv", csv(measures->all()));
     if (!options.out.empty()) {
         report.write(options.out);
         fmt::print("{}: {} pictures, summary.html, timings.json\n", options.out.string(), frames);
     }
     const std::string methods = options.compare ? fmt::format("{} | {}", label(options.choice.values()), label(options.compare->values())) : options.choice.info().id;
     fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, methods, options.size.width, options.size.height, engine.device().caps().deviceName, report.table());
+    if (measures) fmt::print("{}", summary(measures->all()));
     return closingWords(options, engine);
 }
 
@@ -145,7 +157,7 @@ int flyInstead(const Options& given, const std::string& why) {
     options.noPresent = true;
     if (options.camera.kind == CameraChoice::Kind::scene) options.camera.kind = CameraChoice::Kind::flythrough;
     constexpr uint32_t kFrames = 24;
-    if (!options.frames) {
+    if (!options.frames && !options.camera.replay) {
         // As many frames as one looks at, over the whole flythrough.
         options.frames = kFrames;
         options.step = 0.4f;

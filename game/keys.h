@@ -10,6 +10,7 @@ enum class Action {
     quit, toggleOverlay, toggleKeys, screenshot, fullScreen, visibilityOnly, nextView, method, previousMethod, nextMethod,
     nextPreset, pause, stepBack, stepForward, faster, slower, toggleWalk, toggleFlythrough, resetCamera, dropToy, removeToy,
     clearToys, compare, nextOther, swapSides, copySide, dividerLeft, dividerRight,
+    record, replay, measure,
 };
 
 struct KeyBinding {

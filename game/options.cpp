@@ -65,7 +65,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
                "\nExit codes: 0 done, 1 the machine could not do it, 2 bad input, 3 the validation layer complained\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::string method, preset, offscreen, falloff, compare, view = "final", size, camera, eye, target;
+    std::string method, preset, offscreen, falloff, compare, view = "final", size, camera, path, eye, target;
     std::vector<std::string> assignments;
     bool headless = false, listMethods = false, listScenes = false, listDevices = false, flythrough = false, noVsync = false;
     uint32_t frames = 1, switchTest = 0;
@@ -86,21 +86,25 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--split", options.split, "Where the divider stands, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
     cli.add_option("--difference-range", options.differenceRange, "Difference of visibility at which the difference views end")
         ->group(kPicture)->check(CLI::Range(0.001f, 1.0f))->capture_default_str();
-    cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
+    auto* timeOption = cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
     cli.add_option("--guard", options.guard, "Guard band around the picture, fraction of each side")->group(kPicture)->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
     cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")->group(kPicture)->check(CLI::Range(0.001f, 1000.0f))->capture_default_str();
     cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, beside the scene's own")->group(kPicture)->check(CLI::Range(0u, 64u))->capture_default_str();
+    cli.add_flag("--bare", options.bare, "Leave out the toasters that the game sets down in a scene: what obscura-evaluate and obscura-flythrough draw")->group(kPicture);
     cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")->group(kPicture);
 
     app::addVoxelArguments(cli, options.voxels, kPicture);
 
     const char* kCamera = "Camera";
     auto* cameraOption = cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")->group(kCamera);
+    auto* pathOption = cli.add_option("--path", path, "Replay this FILE.json (R records one) at 30 frames a second of the world's time, from its first key or --time on; headless: all of it")
+        ->group(kCamera)->excludes(cameraOption);
     cli.add_flag("--flythrough", flythrough, "Fly along the scene's own path, where no other camera is named")->group(kCamera);
     auto* eyeOption = cli.add_option("--eye", eye, "X,Y,Z of the camera, metres")->group(kCamera);
     auto* targetOption = cli.add_option("--target", target, "X,Y,Z it looks at")->group(kCamera);
     auto* fovOption = cli.add_option("--fov", fov, "Vertical field of view, degrees")->group(kCamera)->check(CLI::Range(1.0f, 170.0f));
     cameraOption->excludes(eyeOption);
+    pathOption->excludes(eyeOption);
     eyeOption->needs(targetOption);
     targetOption->needs(eyeOption);
 
@@ -111,6 +115,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--size", size, "WIDTHxHEIGHT of the picture or window, pixels (1280x720)")->group(kRun);
     cli.add_option("--screenshot", options.screenshot, "PNG of the last frame")->group(kRun);
     cli.add_option("--out", options.out, "Folder for every frame as PNG, summary.html and timings.json")->group(kRun);
+    cli.add_flag("--measure", options.measure, "Measure noise and flicker, and errors where obscura-flythrough has cached a frame's reference; --out: measures.csv")->group(kRun);
     auto* switchOption = cli.add_option("--switch-test", switchTest, "Run every method this many frames, then switch at each frame; report the worst")
         ->group(kRun)->check(CLI::Range(1u, 10000u));
     cli.add_flag("--full-screen", options.fullScreen, "Start in full screen")->group(kRun);
@@ -148,6 +153,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.voxels.cache = scene::cacheFolder();
     if (flythrough) options.camera.kind = CameraChoice::Kind::flythrough;
     if (*cameraOption) options.camera = cameraOf(camera);
+    if (*pathOption) {
+        options.camera.kind = CameraChoice::Kind::path;
+        options.camera.file = path;
+        options.camera.replay = true;
+        if (*timeOption) options.camera.start = options.time;
+    }
     if (*eyeOption) {
         options.camera.kind = CameraChoice::Kind::fixed;
         options.camera.eye = vectorOf("--eye", eye);

@@ -24,6 +24,8 @@ struct CameraChoice {
     std::optional<float> at;       // path: stand still at this time
     glm::vec3 eye{0.0f}, target{0.0f};
     std::optional<float> fovDegrees;  // replaces that of any kind
+    bool replay = false;           // path: at fixed steps from `start`, whatever the clock says
+    std::optional<float> start;    // of a replay; its first key's time unless given
 };
 
 struct Options {
@@ -41,12 +43,14 @@ struct Options {
     VkExtent2D size{1280, 720};
     std::optional<uint32_t> frames;
     std::optional<uint32_t> switchTest;  // steady frames before each switch
+    bool bare = false;                   // without the toasters that the scene's entry sets down
     float time = 0.0f;
     float step = 1.0f / 30.0f;
     float guard = 0.1f;
     float exposure = 1.0f;
     uint32_t toys = 0;                   // dropped at the start
     bool skipMasked = false;
+    bool measure = false;
     render::Voxelization voxels;
     CameraChoice camera;
     Choice choice;

@@ -128,12 +128,19 @@ void timePanel(Session& session) {
     bool following = session.following;
     if (ImGui::Checkbox("flythrough", &following)) session.act(Action::toggleFlythrough, 0);
     ImGui::SameLine();
-    if (ImGui::Checkbox("walk", &session.player.walking)) session.following = false;
+    if (ImGui::Checkbox("walk", &session.player.walking)) session.follow(false);
     const float end = std::max({session.stage.world.duration(), session.stage.path.duration, 1.0f});
     float shown = std::fmod(session.time, end);
     if (ImGui::SliderFloat("time [s]", &shown, 0.0f, end, "%.2f")) session.scrub(shown);
     tip("The world's time; drag to scrub. Animations and flythrough begin anew at the end.");
     ImGui::SliderFloat("pace", &session.pace, 0.125f, 8.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
+    if (ImGui::Button(session.recorder.running() ? "stop recording" : "record")) session.act(Action::record, 0);
+    tip("Writes the camera's path into a file in the current folder.");
+    ImGui::SameLine();
+    if (ImGui::Button(session.replaying() ? "let go" : "replay")) session.act(Action::replay, 0);
+    tip("Flies the path that was recorded last, at 30 frames a second of the world's time however long a frame takes: every replay draws the same frames.");
+    ImGui::SameLine();
+    ImGui::TextUnformatted(session.recorder.running() ? fmt::format("{:.1f} s", session.recorder.seconds()).c_str() : session.replayFile.filename().c_str());
     if (ImGui::Button("drop a toaster")) session.act(Action::dropToy, 0);
     ImGui::SameLine();
     if (ImGui::Button("take one away")) session.act(Action::removeToy, 0);
@@ -219,6 +226,9 @@ void drawMain(Session& session) {
         ImGui::Separator();
         timePanel(session);
         ImGui::Separator();
+        bool measuring = session.measures != nullptr;
+        if (ImGui::Checkbox("measure", &measuring)) session.act(Action::measure, 0);
+        tip("Noise, flicker and errors of what is shown, from every few pixels of each frame.");
         factsPanel(session);
         ImGui::TextDisabled("F1 keys   Tab hides this");
         ImGui::PopItemWidth();
@@ -229,8 +239,13 @@ void drawMain(Session& session) {
 void drawTimesWindow(const Session& session) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x - panelWidth() - 8.0f, 8.0f}, placing());
-    ImGui::SetNextWindowSize({panelWidth(), std::min(size.y - 16.0f, ImGui::GetFontSize() * 36.0f)}, placing());
+    ImGui::SetNextWindowSize({panelWidth(), std::min(size.y * 0.55f, ImGui::GetFontSize() * 36.0f)}, placing());
     if (ImGui::Begin("Times")) drawTimes(session);
+    ImGui::End();
+    if (!session.measures) return;
+    ImGui::SetNextWindowPos({size.x - panelWidth() - 8.0f, size.y * 0.55f + 12.0f}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({panelWidth(), size.y * 0.45f - 20.0f}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Measures")) drawMeasures(session);
     ImGui::End();
 }
 

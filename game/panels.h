@@ -7,6 +7,7 @@ namespace obscura::game {
 
 void drawPanels(Session& session);
 void drawTimes(const Session& session);  // inside a window: bars, history, frame times
+void drawMeasures(const Session& session);  // inside a window: noise, flicker, errors
 void drawKeys();
 void drawComparison(Session& session);   // inside a window: side B
 void drawDivider(const Session& session);  // on the picture: the divider, what is on either side and what it costs

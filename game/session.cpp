@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include <fmt/format.h>
+
+#include "app/files.h"
 
 namespace obscura::game {
 
 namespace {
 
 constexpr float kFrame = 1.0f / 30.0f;   // what , and . step by, seconds
+constexpr size_t kMostWaiting = 3;       // frames, for the worker that measures
 constexpr float kGrab = 8.0f;            // screen units to either side of the divider
 constexpr float kDividerStep = 0.02f;    // of the width
 
@@ -20,11 +24,16 @@ Session::Session(const Options& given, Stage& stage_, Engine& engine_)
     : options(given), stage(stage_), engine(engine_), choice(given.choice), comparing(given.compare.has_value()), split(given.split),
       differenceRange(given.differenceRange), view(given.view), passView(given.passView), time(given.time),
       exposure(given.exposure * stage_.info.exposure), guard(given.guard), voxels(given.voxels), m_lastMethod(given.choice.current()) {
+    if (given.measure) act(Action::measure, 0);
     if (given.compare) other = *given.compare;
     else if (other.current() == choice.current()) other.selectNext(1);
     m_follow = options.camera;
     following = stage.moves(options.camera);
     if (!following) m_follow.kind = CameraChoice::Kind::flythrough;  // what L follows
+    if (options.camera.replay) {
+        replayFile = options.camera.file;
+        startReplay();
+    }
     m_camera = stage.camera(options.camera, time);
     player.look(m_camera);
 }
@@ -42,12 +51,21 @@ void Session::selectMethod(size_t index) {
 }
 
 void Session::scrub(float to) {
+    m_replayed.reset();
     time = std::max(0.0f, to);
     cut = true;
 }
 
 void Session::stepTime(float seconds) {
     paused = true;
+    if (m_replayed) {  // whole frames
+        const uint32_t shown = *m_replayed == 0 ? 0 : *m_replayed - 1;
+        const scene::CameraPath& path = stage.pathOf(replayFile);
+        m_replayed = std::max(1u, seconds < 0.0f ? shown : *m_replayed + 1);
+        if (!path.loop) m_replayed = std::min(*m_replayed, replayFrames(path, replayStart));
+        time = replayTime(replayStart, *m_replayed - 1);
+        return;
+    }
     time = std::max(0.0f, time + seconds);
     // One frame back or on is a movement like any other; histories stay good.
 }
@@ -85,6 +103,52 @@ bool Session::dragDivider(const app::Window& window, bool onPanel) {
 
 std::string Session::comparison() const {
     return fmt::format("{} {} --falloff {} --split {:.3f}", asOptions(choice.values(), false), asOptions(other.values(), true), falloffText(choice.falloff), split);
+}
+
+void Session::follow(bool on) {
+    if (following && !on) player.look(m_camera);
+    following = on;
+    cut = cut || on;
+    m_replayed.reset();
+    if (on && m_follow.replay) m_follow = {.kind = CameraChoice::Kind::flythrough, .fovDegrees = options.camera.fovDegrees};
+}
+
+void Session::startReplay() {
+    if (replayFile.empty()) return say("nothing is recorded yet: R records, R again ends it");
+    const scene::CameraPath& path = stage.pathOf(replayFile);
+    replayStart = options.camera.replay && replayFile == options.camera.file && options.camera.start ? *options.camera.start : path.keys.front().time;
+    follow(true);
+    m_follow = {.kind = CameraChoice::Kind::path, .file = replayFile, .fovDegrees = options.camera.fovDegrees, .replay = true};
+    m_replayed = 0;
+    time = replayStart;
+    paused = false;
+    say(fmt::format("replaying {}", replayFile.filename().string()));
+}
+
+void Session::stopRecording() {
+    const scene::CameraPath path = recorder.finish();
+    if (path.keys.empty()) return say("nothing was recorded");
+    const std::filesystem::path file = app::freshName("obscura", ".path.json");
+    try {
+        path.save(file);
+        replayFile = file;
+        say(fmt::format("wrote {}: {:.1f} s; Y replays it", file.string(), path.duration));
+        fmt::print("wrote {}\n", file.string());
+        std::fflush(stdout);
+    } catch (const scene::Error& error) {
+        say(error.what());
+        fmt::print(stderr, "obscura: {}\n", error.what());
+    }
+}
+
+std::string Session::referenceHint(const Measures::Reading& reading) const {
+    if (!replaying()) return "references belong to replayed paths: R records one, Y replays it";
+    if (!stage.info.toys.empty()) return "the game's own toasters are in no reference: start it with --bare";
+    if (stage.toys() > 0) return "dropped toasters are in no reference: Delete takes them away";
+    const scene::CameraPath& path = stage.pathOf(replayFile);
+    const std::string from = replayStart == path.keys.front().time ? "" : fmt::format("@{}", replayStart);
+    return fmt::format("obscura-flythrough --flythrough {}{} --length {} --size {}x{} --falloff {} --method none --filter raw --no-pictures --out out/references",
+                       replayFile.string(), from, replayFrames(path, replayStart), reading.size.x, reading.size.y, falloffText(choice.falloff));
 }
 
 void Session::act(Action action, int key) {
@@ -128,6 +192,16 @@ void Session::act(Action action, int key) {
         case Action::copySide:
         case Action::dividerLeft:
         case Action::dividerRight: compareAct(action); break;
+        case Action::record:
+            if (recorder.running()) return stopRecording();
+            recorder.start(options.scene);
+            say(paused ? "recording the camera's path by the world's time: Space lets it run, R ends it" : "recording the camera's path; R ends it");
+            break;
+        case Action::replay:
+            if (replaying()) return follow(false), say("free camera");
+            startReplay();
+            break;
+        case Action::measure: measures = measures ? nullptr : std::make_unique<Measures>(kMostWaiting); break;
         case Action::pause: paused = !paused; break;
         case Action::stepBack: stepTime(-kFrame); break;
         case Action::stepForward: stepTime(kFrame); break;
@@ -135,17 +209,15 @@ void Session::act(Action action, int key) {
         case Action::slower: pace = std::max(pace * 0.5f, 0.125f); say(fmt::format("time x {:g}", pace)); break;
         case Action::toggleWalk:
             player.walking = !player.walking;
-            following = false;
+            follow(false);
             say(player.walking ? "walking" : "flying");
             break;
         case Action::toggleFlythrough:
-            following = !following;
-            cut = following;
-            if (!following) player.look(m_camera);
+            follow(!following);
             say(following ? "following the flythrough" : player.walking ? "walking" : "flying");
             break;
         case Action::resetCamera:
-            following = false;
+            follow(false);
             player.look(stage.startCamera());
             cut = true;
             break;
@@ -166,15 +238,29 @@ void Session::act(Action action, int key) {
 void Session::advance(const app::Window& window, float seconds, bool keysTaken) {
     constexpr float kLongest = 0.25f;  // seconds: after a hitch the world goes on, it does not jump
     seconds = std::min(seconds, kLongest);
-    if (!paused) time += seconds * pace;
+    if (m_replayed && !paused) {
+        const scene::CameraPath& path = stage.pathOf(replayFile);
+        const uint32_t frames = replayFrames(path, replayStart);
+        if (!path.loop && *m_replayed >= frames) {  // at its end, and time goes on
+            m_replayed = 0;
+            cut = true;
+        }
+        time = replayTime(replayStart, (*m_replayed)++);
+        if (!path.loop && *m_replayed == frames) {
+            paused = true;
+            say("the path's last frame; Space flies it again, Y lets go");
+        }
+    } else if (!paused) {
+        time += seconds * pace;
+    }
     if (!keysTaken) {
         player.update(window, seconds, stage.moveSpeed(), {stage.info.floor, stage.info.walkMin, stage.info.walkMax});
         if (following && player.moved()) {  // whoever takes the controls flies
-            following = false;
-            player.look(m_camera);
+            follow(false);
         }
     }
     m_camera = following ? stage.camera(m_follow, time) : player.camera();
+    if (recorder.running() && !recorder.add(time, m_camera)) stopRecording();
 }
 
 render::FrameOptions Session::frame(VkExtent2D size) {
@@ -195,6 +281,7 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.exposure = exposure;
     frame.cut = cut;
     frame.skipMasked = options.skipMasked;
+    frame.sampleStep = measures ? measuredStep(size) : 0;
     frame.voxels = voxels;
     frame.voxels.exact = false;  // a frame behind, and no hitch
     cut = false;

@@ -8,7 +8,9 @@
 #include "choice.h"
 #include "engine.h"
 #include "keys.h"
+#include "measures.h"
 #include "player.h"
+#include "recording.h"
 #include "stage.h"
 
 namespace obscura::game {
@@ -53,6 +55,17 @@ public:
     // A divider that is grabbed follows the pointer; grabbed it can be where no panel lies. True while it is.
     bool dragDivider(const app::Window& window, bool onPanel);
     std::string comparison() const;  // as options of the command line
+    void follow(bool on);    // the camera moves by itself; off: it is the player's, where it is
+    std::unique_ptr<Measures> measures;  // null: nothing is measured
+    // Why the measures have no reference, or the command that makes it.
+    std::string referenceHint(const Measures::Reading& reading) const;
+    void startReplay();      // of options.camera's path, or of what was recorded last
+    void stopRecording();    // writes the file, if any key was recorded; says so, or what went wrong
+    bool replaying() const { return m_replayed.has_value(); }
+    Recorder recorder;
+    // Of a replay: the path and where its frames begin.
+    std::filesystem::path replayFile;
+    float replayStart = 0.0f;
     void scrub(float to);    // jumps to a time
 
     // Rounds of the loop right after another method was chosen, against all others, milliseconds.
@@ -63,6 +76,7 @@ private:
     void stepTime(float seconds);
     void compareAct(Action action);
     bool m_dragging = false;
+    std::optional<uint32_t> m_replayed;  // the replay's frame that is shown next
     scene::Camera m_camera;
     CameraChoice m_follow;
     size_t m_lastMethod;

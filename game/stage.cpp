@@ -54,13 +54,13 @@ scene::CameraPath orbit(const scene::Bounds& bounds) {
 
 }  // namespace
 
-Stage::Stage(const std::string& scene) {
+Stage::Stage(const std::string& scene, bool bare) {
     const auto begun = std::chrono::steady_clock::now();
     const std::vector<SceneInfo> manifest = loadManifest();
     const auto named = std::find_if(manifest.begin(), manifest.end(), [&](const SceneInfo& s) { return s.name == scene; });
     std::error_code ignored;
     if (named != manifest.end()) {
-        loadNamed(*named);
+        loadNamed(*named, bare);
     } else if (fs::is_regular_file(scene, ignored)) {
         loadFile(scene);
     } else {
@@ -73,8 +73,9 @@ Stage::Stage(const std::string& scene) {
     loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
-void Stage::loadNamed(const SceneInfo& named) {
+void Stage::loadNamed(const SceneInfo& named, bool bare) {
     info = named;
+    if (bare) info.toys.clear();
     const std::optional<fs::path> found = findContent(info.files);
     if (!found) throw Complaint(fmt::format("--scene {}: {} is not there; {}", info.name, info.files.front(), info.howToGet));
     file = found->string();
@@ -221,6 +222,12 @@ bool Stage::moves(const CameraChoice& choice) const {
     return choice.kind == Kind::flythrough || choice.kind == Kind::lens || (choice.kind == Kind::path && !choice.at);
 }
 
+const scene::CameraPath& Stage::pathOf(const fs::path& path_) {
+    if (path_ != m_chosenFile) m_chosenPath = scene::loadCameraPath(path_);
+    m_chosenFile = path_;
+    return m_chosenPath;
+}
+
 scene::Camera Stage::camera(const CameraChoice& choice, float time) {
     using Kind = CameraChoice::Kind;
     scene::Camera camera = startCamera();
@@ -229,8 +236,7 @@ scene::Camera Stage::camera(const CameraChoice& choice, float time) {
         camera = path.at(time);
         camera.nearPlane = near;
     } else if (choice.kind == Kind::path) {
-        if (!m_chosenPath) m_chosenPath = std::make_shared<scene::CameraPath>(scene::loadCameraPath(choice.file));
-        camera = m_chosenPath->at(choice.at.value_or(time));
+        camera = pathOf(choice.file).at(choice.at.value_or(time));
         camera.nearPlane = near;
     } else if (choice.kind == Kind::file) {
         camera = scene::loadCamera(choice.file);

@@ -16,8 +16,9 @@ class Stage {
 public:
     static constexpr size_t kMostToys = 64;  // dropped by the player
 
-    // `scene` is a name of the manifest or a path. Throws app::Complaint or scene::Error.
-    explicit Stage(const std::string& scene);
+    // `scene` is a name of the manifest or a path; `bare` leaves out the toys that the manifest sets down. Throws app::Complaint or
+    // scene::Error.
+    explicit Stage(const std::string& scene, bool bare = false);
 
     scene::World world;
     SceneInfo info;
@@ -28,6 +29,8 @@ public:
     double loadSeconds = 0.0;             // that this took
 
     scene::Camera startCamera() const;
+    // The path of --camera path: or --path, read once. Throws app::Complaint.
+    const scene::CameraPath& pathOf(const std::filesystem::path& file);
     // The camera that an option asks for, at a time.
     scene::Camera camera(const CameraChoice& choice, float time);
     bool moves(const CameraChoice& choice) const;  // does it change over time by itself?
@@ -45,7 +48,7 @@ public:
     float moveSpeed() const;  // metres a second that suit the scene's size
 
 private:
-    void loadNamed(const SceneInfo& named);
+    void loadNamed(const SceneInfo& named, bool bare);
     void loadFile(const std::filesystem::path& file);
     void loadToys(bool wanted);
     void placeGroup(const ToyGroup& group);
@@ -63,7 +66,8 @@ private:
         glm::vec3 at;
     };
     std::vector<Dropped> m_dropped;
-    std::shared_ptr<scene::CameraPath> m_chosenPath;  // of --camera path:
+    scene::CameraPath m_chosenPath;
+    std::filesystem::path m_chosenFile;  // that it was read from
 };
 
 // "name  title  where" lines of the manifest.

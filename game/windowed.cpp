@@ -1,7 +1,6 @@
 // The game in its window.
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 
 #include <fmt/format.h>
 
@@ -21,18 +20,6 @@ namespace {
 
 constexpr double kReloadEvery = 250.0;  // milliseconds between looks at edited shaders
 constexpr double kIdleWait = 0.1;       // seconds, while there is nothing to draw into
-
-// A name that no file has yet: obscura-20240131-235959.png, then with -2, -3, ...
-fs::path screenshotName() {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    ::localtime_r(&now, &local);
-    char stamp[32];
-    std::strftime(stamp, sizeof(stamp), "%Y%m%d-%H%M%S", &local);
-    fs::path name = fmt::format("obscura-{}.png", stamp);
-    for (int i = 2; fs::exists(name); ++i) name = fmt::format("obscura-{}-{}.png", stamp, i);
-    return name;
-}
 
 class Game {
 public:
@@ -91,13 +78,16 @@ void Game::drawFrame() {
     m_idle = !m_presenter.acquire(frames.slot());
     if (m_idle) return m_engine.expect(frames.end(graph), "idling");
 
-    const render::Outputs outputs = m_engine.renderer().add(graph, m_session.stage.world, m_session.frame(m_presenter.size()));
+    const render::FrameOptions frame = m_session.frame(m_presenter.size());
+    const render::Outputs outputs = m_engine.renderer().add(graph, m_session.stage.world, frame);
+    if (m_session.measures)
+        m_engine.expect(readInto(*m_session.measures, m_engine.capture(), graph, outputs, measuredFrame(frame, m_session.stage.world, m_shown)), "reading samples back");
     m_session.passNames.clear();
     for (const graph::Graph::Written& written : graph.written())
         if (std::find(m_session.passNames.begin(), m_session.passNames.end(), written.pass) == m_session.passNames.end())
             m_session.passNames.push_back(written.pass);
     const bool last = m_options.frames && m_shown + 1 >= *m_options.frames;
-    if (m_session.wantsScreenshot) takeScreenshot(graph, outputs.color, screenshotName(), false);
+    if (m_session.wantsScreenshot) takeScreenshot(graph, outputs.color, app::freshName("obscura", ".png"), false);
     m_session.wantsScreenshot = false;
     if (last && !m_options.screenshot.empty()) takeScreenshot(graph, outputs.color, m_options.screenshot, true);
     if (!m_overlayTried) makeOverlay(graph.desc(outputs.color).format);
@@ -158,6 +148,7 @@ void Game::run() {
             m_session.measured(app::now() - begun);
         }
     }
+    if (m_session.recorder.running()) m_session.stopRecording();
     if (m_session.comparing) fmt::print("compared: {}\n", m_session.comparison());
     m_engine.expect(m_engine.frames().wait(), "finishing the last frame");
     m_engine.capture().collect(true);
@@ -174,7 +165,7 @@ int playWindowed(const Options& options) {
     auto window = app::Window::open("Obscura", int(options.size.width), int(options.size.height), error);
     if (!window) return flyInstead(options, "no window: " + error);
 
-    Stage stage(options.scene);
+    Stage stage(options.scene, options.bare);
     stage.camera(options.camera, options.time);
     for (const std::string& remark : stage.remarks) fmt::print(stderr, "obscura: {}\n", remark);
     stage.dropToys(options.toys, options.time);

@@ -34,10 +34,14 @@ Picture convert(const gpu::ImageDesc& desc, const std::byte* bytes) {
 
 gpu::Status Capture::add(graph::Graph& graph, graph::ImageId image, Done done) {
     const gpu::ImageDesc desc = graph.desc(image);
-    const uint64_t bytes = uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format);
     if (desc.format != VK_FORMAT_R8G8B8A8_UNORM && desc.format != VK_FORMAT_R16_SFLOAT) return gpu::Status::unsupported;
+    return addRaw(graph, image, [desc, done = std::move(done)](std::span<const std::byte> bytes) { done(convert(desc, bytes.data())); });
+}
 
-    Pending pending{m_device.frame(), desc, {}, std::move(done)};
+gpu::Status Capture::addRaw(graph::Graph& graph, graph::ImageId image, Raw done) {
+    const gpu::ImageDesc desc = graph.desc(image);
+    const uint64_t bytes = uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format);
+    Pending pending{m_device.frame(), {}, std::move(done)};
     const auto fits = std::find_if(m_free.begin(), m_free.end(), [&](const gpu::Buffer& b) { return b.bytes() == bytes; });
     if (fits != m_free.end()) {
         pending.buffer = std::move(*fits);
@@ -76,9 +80,8 @@ void Capture::collect(bool all) {
     while (!m_pending.empty() && (all || m_pending.front().frame + m_device.framesInFlight() <= m_device.frame())) {
         Pending pending = std::move(m_pending.front());
         m_pending.pop_front();
-        Picture picture = convert(pending.desc, pending.buffer.mapped());
+        pending.done({pending.buffer.mapped(), size_t(pending.buffer.bytes())});
         m_free.push_back(std::move(pending.buffer));
-        pending.done(std::move(picture));
     }
 }
 

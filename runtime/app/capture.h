@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "app/picture.h"
@@ -18,15 +19,17 @@ public:
 
     // R8G8B8A8_UNORM as it is, or R16_SFLOAT in [0,1] as grey (linear values, not encoded: what a number view shows).
     gpu::Status add(graph::Graph& graph, graph::ImageId image, Done done);
+    // Any format as it lies in memory, rows without gaps; the bytes are gone after the call.
+    using Raw = std::function<void(std::span<const std::byte>)>;
+    gpu::Status addRaw(graph::Graph& graph, graph::ImageId image, Raw done);
     // Hands over what has arrived: after Frames::begin, or everything after Frames::wait (`all`).
     void collect(bool all = false);
 
 private:
     struct Pending {
         uint64_t frame;
-        gpu::ImageDesc desc;
         gpu::Buffer buffer;
-        Done done;
+        Raw done;
     };
     gpu::Device& m_device;
     std::deque<Pending> m_pending;

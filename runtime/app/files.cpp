@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -57,6 +58,17 @@ void expectFolder(const fs::path& folder) {
     fs::create_directories(folder, error);
     if (error) refuse(folder, error.message().c_str());
     expectWritable(folder / "probe");
+}
+
+std::filesystem::path freshName(const std::string& stem, const std::string& extension) {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    ::localtime_r(&now, &local);
+    char stamp[32];
+    std::strftime(stamp, sizeof(stamp), "%Y%m%d-%H%M%S", &local);
+    fs::path name = fmt::format("{}-{}{}", stem, stamp, extension);
+    for (int i = 2; fs::exists(name); ++i) name = fmt::format("{}-{}-{}{}", stem, stamp, i, extension);
+    return name;
 }
 
 std::string base64(std::span<const std::byte> bytes) {

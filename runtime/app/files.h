@@ -17,6 +17,9 @@ void expectWritable(const std::filesystem::path& file);
 // Makes the folder when it is missing; throws Complaint when nothing can be written there.
 void expectFolder(const std::filesystem::path& folder);
 
+// A name in the current folder that no file has yet: "stem-20240131-235959.png", then with -2, -3, ...
+std::filesystem::path freshName(const std::string& stem, const std::string& extension);
+
 std::string base64(std::span<const std::byte> bytes);
 std::filesystem::path executableFolder();  // empty when the system does not tell
 std::filesystem::path cacheFolder();       // of this program, per user; empty when there is none; may not exist yet

@@ -236,6 +236,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     out.normals = g.geometric;
     out.motion = g.motion;
     out.voxels = sources.volume;
+    if (options.sampleStep && prepared.depth) out.samples = impl.views.samples(graph, out, options.sampleStep, view);
     if (options.view == View::final || options.view == View::pass) {
         Lighting::Inputs in;
         in.gbuffer = g;

@@ -49,6 +49,7 @@ struct FrameOptions {
     float differenceRange = 0.25f;    // difference of visibility at which the difference views end
     View view = View::final;
     std::string passView;             // for View::pass
+    uint32_t sampleStep = 0;          // > 0: Outputs::samples of every so many pixels
     Voxelization voxels;              // for methods that need a volume
     Sun sun;
     float exposure = 1.0f;
@@ -63,6 +64,9 @@ struct Outputs {
     graph::ImageId color;       // what `view` asks for, R8G8B8A8_UNORM holding sRGB-encoded values, visible size
     graph::ImageId visibility;  // R16F, visible size, of the method, or of both as the divider shows them
     graph::ImageId sides[2];    // likewise, of A and of B alone (none where nothing is compared)
+    // Of every sampleStep-th visible pixel, (i + 1/2) sampleStep from the corner: halves of A's and B's visibility, linear depth as
+    // float bits, packed normal, halves of motion in px of the whole. R32G32B32A32_UINT, size / sampleStep. None unless asked for.
+    graph::ImageId samples;
     // Guard band included:
     graph::ImageId depth;           // D32, reversed infinite device depth
     graph::ImageId linearDepth;     // R32F, -z in metres, ao's sky value where nothing is

@@ -57,6 +57,7 @@ gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/view_uint.comp", {}, out.m_uint);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp", {}, out.m_split);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/difference.comp", {}, out.m_difference);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/samples.comp", {}, out.m_samples);
     return status;
 }
 
@@ -109,6 +110,14 @@ graph::ImageId Views::difference(graph::Graph& graph, graph::ImageId a, graph::I
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, desc.width, desc.height});
     graph.pass("difference", m_difference).read(a).read(b).write(picture).constants(block).dispatch(desc.width, desc.height);
     return picture;
+}
+
+graph::ImageId Views::samples(graph::Graph& graph, const Outputs& outputs, uint32_t step, const shared::View& frame) {
+    const shared::SamplesBlock block{{frame.visible.x / step, frame.visible.y / step}, frame.guard, step, {}};
+    const graph::ImageId samples = graph.image("samples", {VK_FORMAT_R32G32B32A32_UINT, block.count.x, block.count.y});
+    graph.pass("samples", m_samples).read(outputs.sides[0]).read(outputs.sides[outputs.sides[1] ? 1 : 0]).read(outputs.linearDepth).read(outputs.normals)
+        .read(outputs.motion).write(samples).constants(block).dispatch(block.count.x, block.count.y);
+    return samples;
 }
 
 graph::ImageId Views::addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame) {

@@ -20,10 +20,12 @@ public:
     // |A - B| / range as grey or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is darker).
     graph::ImageId split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider);
     graph::ImageId difference(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float range, bool withSign);
+    // Outputs::samples of what the rest of `outputs` holds.
+    graph::ImageId samples(graph::Graph& graph, const Outputs& outputs, uint32_t step, const shared::View& frame);
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
-    gpu::Program m_float, m_uint, m_split, m_difference;
+    gpu::Program m_float, m_uint, m_split, m_difference, m_samples;
 };
 
 }  // namespace obscura::render

@@ -2,6 +2,7 @@
 #include "truth/cache.h"
 
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -105,9 +106,43 @@ std::string screenKey(const CapturedFrame& frame, std::span<const RayFalloff> fa
     return "screen-" + hash.hex();
 }
 
+std::string viewKey(const scene::World& world, float time, const scene::Camera& camera, glm::uvec2 visible, const WorldGeometry& geometry,
+                    const RayFalloff& falloff) {
+    Hash hash;
+    hash.add("view").add(kVersion).add(geometry.skipMasked).add(geometry.skipBlended).add(visible.x).add(visible.y);
+    for (const scene::Instance& instance : world.instances()) {
+        hash.add(instance.model->hash).add(&instance.placement, sizeof instance.placement);
+        hash.add(instance.animation).add(instance.timeOffset).add(instance.root);
+    }
+    if (world.duration() > 0.0f) hash.add(time);
+    for (const glm::vec3& v : {camera.eye, camera.target, camera.up}) hash.add(&v, sizeof v);
+    hash.add(camera.fovY).add(camera.orthoHalfHeight);
+    add(hash, {&falloff, 1});
+    return "view-" + hash.hex();
+}
+
 ReferenceCache::ReferenceCache(std::filesystem::path folder, Warn warn) : m_folder(std::move(folder)), m_warn(std::move(warn)) {}
 
 std::filesystem::path ReferenceCache::fileOf(const std::string& key) const { return m_folder / (key + ".exr"); }
+
+void ReferenceCache::note(const std::string& viewKey, const std::string& key) const {
+    if (m_folder.empty()) return;
+    try {
+        writeWhole(m_folder / viewKey, key.data(), key.size());
+    } catch (const scene::Error&) {
+        // get() has said that nothing can be written here.
+    }
+}
+
+std::optional<Reference> ReferenceCache::find(const std::string& viewKey) const {
+    std::string key;
+    if (m_folder.empty() || !(std::ifstream(m_folder / viewKey) >> key)) return std::nullopt;
+    try {
+        return read(fileOf(key));
+    } catch (const scene::Error&) {
+        return std::nullopt;
+    }
+}
 
 Reference ReferenceCache::get(const std::string& key, const std::function<Reference()>& make) {
     if (m_folder.empty()) return make();

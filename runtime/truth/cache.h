@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -21,6 +22,11 @@ std::string worldKey(std::span<const scene::PosedPrimitive> primitives, const Wo
                      std::span<const RayFalloff> falloffs, const WorldOptions& options);
 std::string screenKey(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const ScreenOptions& options);
 
+// What determines a world reference and is known before anything is posed or drawn: the world's instances, its time if anything in it
+// moves, the camera but for its near plane, the visible size, geometry options, the falloff. Not the rays.
+std::string viewKey(const scene::World& world, float time, const scene::Camera& camera, glm::uvec2 visible, const WorldGeometry& geometry,
+                    const RayFalloff& falloff);
+
 class ReferenceCache {
 public:
     using Warn = std::function<void(const std::string& line)>;
@@ -31,6 +37,10 @@ public:
     // From disk (fromCache is set), or made now and written: to a temporary name, then renamed.
     Reference get(const std::string& key, const std::function<Reference()>& make);
     std::filesystem::path fileOf(const std::string& key) const;
+    // Notes that the reference of `key` is what is seen under a view key, for whoever cannot trace; the last one noted stays.
+    void note(const std::string& viewKey, const std::string& key) const;
+    // The reference noted; nothing where there is none, or where it cannot be read.
+    std::optional<Reference> find(const std::string& viewKey) const;
 
 private:
     std::filesystem::path m_folder;

@@ -22,26 +22,6 @@ struct Maps {
     Plane ssim, flip;
 };
 
-Errors errorsOf(const Plane& a, const Plane& r, const Mask& mask) {
-    double sum = 0.0, absolute = 0.0, square = 0.0;
-    size_t close = 0;
-    std::vector<float> all;
-    for (size_t i = 0; i < a.pixels(); ++i) {
-        if (!mask[i]) continue;
-        const float e = a.values[i] - r.values[i];
-        sum += e;
-        absolute += std::fabs(e);
-        square += double(e) * e;
-        close += std::fabs(e) < 0.05f;
-        all.push_back(std::fabs(e));
-    }
-    if (all.empty()) return {};
-    const double n = double(all.size());
-    const auto rank = all.begin() + std::ptrdiff_t(std::ceil(0.99 * n)) - 1;
-    std::nth_element(all.begin(), rank, all.end());
-    return {float(sum / n), float(absolute / n), float(double(close) / n), float(std::sqrt(square / n)), *rank};
-}
-
 double rmseAt(const Plane& a, const Plane& r, const Mask& mask, double gamma) {
     double square = 0.0;
     for (size_t i = 0; i < a.pixels(); ++i)
@@ -101,9 +81,9 @@ Metrics judge(const Maps& maps, const Mask& mask) {
     Metrics metrics;
     metrics.pixels = size_t(std::count(mask.begin(), mask.end(), uint8_t(1)));
     if (metrics.pixels == 0) return metrics;
-    metrics.raw = errorsOf(maps.picture, maps.reference, mask);
+    metrics.raw = errors(maps.picture, maps.reference, mask);
     metrics.gamma = maps.gamma;
-    metrics.adjusted = errorsOf(maps.adjusted, maps.reference, mask);
+    metrics.adjusted = errors(maps.adjusted, maps.reference, mask);
     metrics.ssim = meanOver(maps.ssim, mask);
     metrics.flipMean = meanOver(maps.flip, mask);
     metrics.flipWeightedMedian = weightedMedian(maps.flip, mask);
@@ -206,6 +186,26 @@ Mask thinOf(const Plane& z, const Mask& valid) {
 }
 
 }  // namespace
+
+Errors errors(const Plane& a, const Plane& r, const Mask& mask) {
+    double sum = 0.0, absolute = 0.0, square = 0.0;
+    size_t close = 0;
+    std::vector<float> all;
+    for (size_t i = 0; i < a.pixels(); ++i) {
+        if (!mask.empty() && !mask[i]) continue;
+        const float e = a.values[i] - r.values[i];
+        sum += e;
+        absolute += std::fabs(e);
+        square += double(e) * e;
+        close += std::fabs(e) < 0.05f;
+        all.push_back(std::fabs(e));
+    }
+    if (all.empty()) return {};
+    const double n = double(all.size());
+    const auto rank = all.begin() + std::ptrdiff_t(std::ceil(0.99 * n)) - 1;
+    std::nth_element(all.begin(), rank, all.end());
+    return {float(sum / n), float(absolute / n), float(double(close) / n), float(std::sqrt(square / n)), *rank};
+}
 
 Regions regionsOf(const CapturedFrame& frame, const Mask& disoccluded) {
     Regions regions;

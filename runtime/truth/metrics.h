@@ -19,6 +19,9 @@ struct Errors {
     float p99 = 0.0f;    // 99th percentile of |A - R|
 };
 
+// Over valid pixels (mask empty: all); values are taken as they are. Cheap enough for every frame.
+Errors errors(const Plane& visibility, const Plane& reference, const Mask& valid = {});
+
 struct Metrics {
     size_t pixels = 0;   // judged; with none, everything else is 0
     Errors raw;

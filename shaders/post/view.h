@@ -21,6 +21,14 @@ struct SplitBlock {
 };
 OBSCURA_SHARED_SIZE(SplitBlock, 16);
 
+struct SamplesBlock {
+    uvec2 count;     // of samples
+    uvec2 guard;     // px before the visible part
+    uint step;       // px from one sample to the next
+    uint unused[3];
+};
+OBSCURA_SHARED_SIZE(SamplesBlock, 32);
+
 struct DifferenceBlock {
     uvec2 visible;
     float scale;     // 1 / the difference at which colours end

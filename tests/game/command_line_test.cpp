@@ -119,7 +119,7 @@ TEST(CommandLine, HelpIsComplete) {
     EXPECT_EQ(ran.code, 0);
     for (const char* word : {"--headless", "--frames", "--size", "--scene", "--method", "--set", "--falloff", "--time", "--view", "--screenshot", "--out",
                              "--list-methods", "--json", "--device", "--guard", "--preset", "--validation", "--flythrough", "--camera", "--eye",
-                             "--switch-test", "--compare", "--split", "--difference-range", "Keys:", "F11", "Tab", "1..9"})
+                             "--switch-test", "--compare", "--split", "--difference-range", "--path", "--bare", "--measure", "Keys:", "F11", "Tab", "1..9"})
         EXPECT_NE(ran.out.find(word), std::string::npos) << word;
 }
 

@@ -31,10 +31,10 @@ fs::path freshFolder(const std::string& name) {
     return folder;
 }
 
-Ran run(const std::vector<std::string>& arguments) {
+Ran run(const std::vector<std::string>& arguments, const char* program) {
     const fs::path folder = freshFolder("run");
     const fs::path out = folder / "out", err = folder / "err";
-    std::vector<char*> argv{const_cast<char*>(OBSCURA_GAME)};
+    std::vector<char*> argv{const_cast<char*>(program)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     const pid_t child = ::fork();
@@ -44,7 +44,7 @@ Ran run(const std::vector<std::string>& arguments) {
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
         ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
-        ::execv(OBSCURA_GAME, argv.data());
+        ::execv(program, argv.data());
         ::_exit(127);
     }
     int status = 0;

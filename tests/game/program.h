@@ -11,8 +11,8 @@ struct Ran {
     int code = -1;  // exit code, or 128 + signal
     std::string out, err;
 };
-// With its own cache folder, without a display.
-Ran run(const std::vector<std::string>& arguments);
+// With its own cache folder unless OBSCURA_CACHE names one, without a display. The game unless another program is named.
+Ran run(const std::vector<std::string>& arguments, const char* program = OBSCURA_GAME);
 
 // A folder of this test alone, empty at first.
 std::filesystem::path freshFolder(const std::string& name);

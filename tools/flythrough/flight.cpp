@@ -128,9 +128,10 @@ void Flight::trace() {
     for (uint32_t frame = begin; frame < m_settings.end; ++frame) {
         progress.at(frame - begin);
         const std::vector<scene::PosedPrimitive> primitives = scene::pose(m_stage.worldAt(frame), m_stage.worldTimeAt(frame));
-        const truth::Reference reference = cache.get(truth::worldKey(primitives, {}, m_geometry[frame].frame, falloffs, rays), [&] {
-            return truth::WorldReference(primitives).trace(m_geometry[frame].frame, falloffs, rays);
-        });
+        const std::string key = truth::worldKey(primitives, {}, m_geometry[frame].frame, falloffs, rays);
+        const truth::Reference reference = cache.get(key, [&] { return truth::WorldReference(primitives).trace(m_geometry[frame].frame, falloffs, rays); });
+        // The game finds it by what it knows before it draws.
+        cache.note(truth::viewKey(m_stage.worldAt(frame), m_stage.worldTimeAt(frame), m_stage.cameraAt(frame), m_settings.size, {}, falloffs[0]), key);
         m_references[frame] = {reference.channels[0].obscurance, reference.channels[0].error};
         for (float& v : m_references[frame].visibility.values) v = 1.0f - v;
     }

@@ -72,7 +72,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     };
 
     cli.option_defaults()->group("What is flown");
-    takeAll(cli.add_option("--flythrough", options.flythroughs, "By name, several with commas, or all (content/flythroughs.json; --list prints them)"));
+    takeAll(cli.add_option("--flythrough", options.flythroughs, "By name, several with commas, or all (content/flythroughs.json; --list prints them), or FILE.json, a path that the game recorded"));
     cli.add_option("--length", options.settings.length, "Frames of the whole flythrough")->check(CLI::Range(2u, 100000u))->capture_default_str();
     cli.add_option("--frames", frames, "FIRST:END: measure these alone, so that a long run splits over machines (--merge joins them)");
     auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (320x180)");

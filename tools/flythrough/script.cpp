@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "app/arguments.h"
 #include "app/complaint.h"
 #include "content.h"
 #include "scene/json_file.h"
@@ -90,9 +91,30 @@ std::shared_ptr<const scene::Model> unitBox() {
 }
 
 std::filesystem::path pathFile(const Script& script) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(script.path, ignored)) return script.path;
     const auto found = evaluate::findContent(script.path.string());
     if (!found) throw Complaint(fmt::format("{}: its camera path {} is not in content/", script.name, script.path.string()));
     return *found;
+}
+
+// A path that somebody flew: of its own scene, from its first key or "@SECONDS" on.
+Script recorded(const std::string& text) {
+    const size_t mark = text.rfind('@');
+    Script script;
+    script.path = text.substr(0, mark);
+    const scene::CameraPath path = scene::loadCameraPath(script.path);
+    if (path.scene.empty()) throw Complaint(fmt::format("{}: names no scene; add \"scene\": a name of content/scenes.json or a glTF file", script.path.string()));
+    script.scene = path.scene;
+    script.title = path.name;
+    script.name = script.path.filename().string();
+    script.name = script.name.substr(0, script.name.find('.'));
+    script.start = path.keys.front().time;
+    if (mark == std::string::npos) return script;
+    const std::vector<float> at = app::numbers(text.substr(mark + 1), ',');
+    if (at.size() != 1) throw Complaint(fmt::format("--flythrough {}: after @ comes a time in seconds", text));
+    script.start = at[0];
+    return script;
 }
 
 }  // namespace
@@ -108,6 +130,11 @@ std::vector<Script> scripts() {
 }
 
 Script findScript(const std::string& name) {
+    if (name.find(".json") != std::string::npos) {
+        Script script = recorded(name);
+        evaluate::findScene(script.scene);
+        return script;
+    }
     std::vector<std::string> names;
     for (Script& script : scripts()) {
         names.push_back(script.name);
@@ -116,7 +143,7 @@ Script findScript(const std::string& name) {
         if (!script.camera) pathFile(script);
         return script;
     }
-    throw Complaint(fmt::format("--flythrough {}: no such flythrough; {}", name, app::choices(name, names)));
+    throw Complaint(fmt::format("--flythrough {}: no such flythrough; {}, or the path of a recorded FILE.json", name, app::choices(name, names)));
 }
 
 Stage::Stage(const Script& script) : m_script(script) {

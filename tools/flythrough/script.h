@@ -36,7 +36,8 @@ struct Script {
 
 // All of the manifest. Throws scene::Error or app::Complaint.
 std::vector<Script> scripts();
-// By name; throws app::Complaint that lists what there is. Its scene and path are there.
+// By name, or "FILE.json", "FILE.json@SECONDS": a recorded camera path. Throws app::Complaint that lists what there is. Its scene and
+// path are there.
 Script findScript(const std::string& name);
 
 // A script ready to be drawn.
