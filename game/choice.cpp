@@ -47,7 +47,8 @@ std::string label(const ao::Values& values) {
 
 std::string asOptions(const ao::Values& values, bool compare) {
     std::string text = fmt::format("{} {}", compare ? "--compare" : "--method", values.info().id);
-    if (const ao::Preset* preset = presetOf(values)) return text + (preset == &values.info().presets[0] ? "" : (compare ? ":" : " --preset ") + std::string(preset->id));
+    if (const ao::Preset* preset = presetOf(values))
+        return preset == &values.info().presets[0] ? text : fmt::format("{}{}{}", text, compare ? ":" : " --preset ", preset->id);
     ao::Values first(values.info());
     if (values.info().presets.size() > 0) first.apply(values.info().presets[0]);
     for (const ao::Parameter& parameter : values.info().parameters)

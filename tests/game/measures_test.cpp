@@ -72,7 +72,7 @@ TEST_F(LiveMeasures, AgreeWithTheFlythroughToolOnItsReferences) {
     const Ran ran = play("game", {"--path", m_path, "--frames", "5", "--size", "64x36", "--method", "hbao", "--set", "denoise=0", "--validation", "sync"});
     EXPECT_NE(ran.out.find("5 of 5 frames have a reference"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("validation: 0 messages"), std::string::npos) << ran.out;
-    const Table wanted = tableOf(flown / "frames.csv"), got = measures("game");
+    Table wanted = tableOf(flown / "frames.csv"), got = measures("game");
     ASSERT_EQ(wanted.size(), 5u);
     ASSERT_EQ(got.size(), 5u);
     const std::pair<const char*, const char*> columns[] = {{"eA", "eA"}, {"bias", "bias"}, {"share", "share"}, {"difference", "D_A"}, {"excess_flicker", "excess"},
@@ -107,7 +107,7 @@ TEST_F(LiveMeasures, EveryFewPixelsOfALargerPictureMeetASmallOnesReference) {
     EXPECT_NE(small.out.find("160 x 90 pixels, every 1; 2 of 2"), std::string::npos) << small.out;
     EXPECT_NE(large.out.find("160 x 90 pixels, every 3; 2 of 2"), std::string::npos) << large.out;
     // Without obscurance the error is the reference's own: the same pixels, or it differs.
-    const Table a = measures("small"), b = measures("large");
+    Table a = measures("small"), b = measures("large");
     for (size_t i = 0; i < 2; ++i) EXPECT_NEAR(std::stod(a[i].at("eA")), std::stod(b[i].at("eA")), 2e-4) << i;
     EXPECT_NEAR(std::stod(a[1].at("share")), std::stod(b[1].at("share")), 0.02);
 }

@@ -132,6 +132,54 @@ TEST(Cache, keyCoversWhatDeterminesTheReference) {
     EXPECT_NE(screenKey(base.frame, base.falloffs, options), screen);
 }
 
+TEST(Cache, aNotedReferenceIsFoundByWhatIsKnownBeforeDrawing) {
+    const Scratch scratch;
+    const Setting setting;
+    ReferenceCache cache(scratch.path());
+    EXPECT_FALSE(cache.find("view-none"));
+    cache.note("view-dangling", setting.key());
+    EXPECT_FALSE(cache.find("view-dangling")) << "nobody has made it";
+    const Reference made = cache.get(setting.key(), [&] { return setting.make(); });
+    const auto found = cache.find("view-dangling");
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->channels[0].obscurance.values, made.channels[0].obscurance.values);
+    test::writeText(cache.fileOf(setting.key()), "");
+    EXPECT_FALSE(cache.find("view-dangling")) << "broken";
+
+    scene::World world;
+    auto model = std::make_shared<scene::Model>();
+    model->hash = 1;
+    world.add({.model = model});
+    const scene::Camera camera;
+    const auto key = [&](const scene::World& w, float time, const scene::Camera& c, glm::uvec2 size, const std::string& falloff) {
+        return viewKey(w, time, c, size, {}, rayFalloff(falloff));
+    };
+    const std::string first = key(world, 1.0f, camera, {8, 8}, "quadratic:2");
+    EXPECT_EQ(first, key(world, 2.0f, camera, {8, 8}, "quadratic:2")) << "nothing moves";
+    scene::Camera near = camera, turned = camera;
+    near.nearPlane *= 2.0f;
+    turned.target.x += 1e-3f;
+    EXPECT_EQ(first, key(world, 1.0f, near, {8, 8}, "quadratic:2"));
+    EXPECT_NE(first, key(world, 1.0f, turned, {8, 8}, "quadratic:2"));
+    EXPECT_NE(first, key(world, 1.0f, camera, {8, 9}, "quadratic:2"));
+    EXPECT_NE(first, key(world, 1.0f, camera, {8, 8}, "quadratic:1"));
+    WorldGeometry bare;
+    bare.skipMasked = true;
+    EXPECT_NE(first, viewKey(world, 1.0f, camera, {8, 8}, bare, rayFalloff("quadratic:2")));
+    scene::World moved = world;
+    moved.instances()[0].placement[3].x += 1.0f;
+    EXPECT_NE(first, key(moved, 1.0f, camera, {8, 8}, "quadratic:2"));
+    scene::World crowded = world;
+    crowded.add({.model = model});
+    EXPECT_NE(first, key(crowded, 1.0f, camera, {8, 8}, "quadratic:2"));
+    scene::World animated;
+    auto moving = std::make_shared<scene::Model>();
+    moving->hash = 1;
+    moving->animations.emplace_back().duration = 3.0f;
+    animated.add({.model = moving});
+    EXPECT_NE(key(animated, 1.0f, camera, {8, 8}, "quadratic:2"), key(animated, 2.0f, camera, {8, 8}, "quadratic:2"));
+}
+
 TEST(Cache, folderComesFromTheEnvironment) {
     const auto with = [](const char* own, const char* xdg, const char* home) {
         const char* names[] = {"OBSCURA_CACHE", "XDG_CACHE_HOME", "HOME"};
