@@ -38,21 +38,34 @@ const ao::Preset* presetOf(const ao::Values& values) {
     return nullptr;
 }
 
+namespace {
+
+// "steps=4", ...: what differs from the first preset.
+std::vector<std::string> differences(const ao::Values& values) {
+    ao::Values first(values.info());
+    if (values.info().presets.size() > 0) first.apply(values.info().presets[0]);
+    std::vector<std::string> list;
+    for (const ao::Parameter& parameter : values.info().parameters)
+        if (values[parameter.id] != first[parameter.id]) list.push_back(fmt::format("{}={:g}", parameter.id, values[parameter.id]));
+    return list;
+}
+
+}  // namespace
+
 std::string label(const ao::Values& values) {
-    const ao::Preset* preset = presetOf(values);
-    const std::string id = values.info().id;
-    if (!preset) return values.info().presets.size() > 0 ? id + " (own)" : id;
-    return std::string_view(preset->id) == "default" ? id : id + " " + preset->id;
+    constexpr size_t kShown = 3;
+    if (const ao::Preset* preset = presetOf(values))
+        return preset == &values.info().presets[0] ? values.info().id : fmt::format("{} {}", values.info().id, preset->id);
+    std::vector<std::string> list = differences(values);
+    if (list.size() > kShown) list.resize(kShown), list.push_back("...");
+    return fmt::format("{} {}", values.info().id, fmt::join(list, " "));
 }
 
 std::string asOptions(const ao::Values& values, bool compare) {
     std::string text = fmt::format("{} {}", compare ? "--compare" : "--method", values.info().id);
     if (const ao::Preset* preset = presetOf(values))
         return preset == &values.info().presets[0] ? text : fmt::format("{}{}{}", text, compare ? ":" : " --preset ", preset->id);
-    ao::Values first(values.info());
-    if (values.info().presets.size() > 0) first.apply(values.info().presets[0]);
-    for (const ao::Parameter& parameter : values.info().parameters)
-        if (values[parameter.id] != first[parameter.id]) text += fmt::format("{}{}={:g}", compare ? "," : " --set ", parameter.id, values[parameter.id]);
+    for (const std::string& difference : differences(values)) text += (compare ? "," : " --set ") + difference;
     return text;
 }
 

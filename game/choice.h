@@ -37,7 +37,7 @@ private:
 std::vector<std::string> methodIds();
 // Which preset the values are at this moment; null when they are nobody's.
 const ao::Preset* presetOf(const ao::Values& values);
-std::string label(const ao::Values& values);  // "hbao 8x4"; the default preset goes without saying, "(own)" is none
+std::string label(const ao::Values& values);  // "hbao", "hbao 8x4", "hbao steps=4 temporal=0.9": the first preset goes without saying
 std::string falloffText(const ao::Falloff& falloff);  // as setFalloff reads it
 // The options that choose these values: --method ID --preset NAME or --set ..., or the same as one --compare.
 std::string asOptions(const ao::Values& values, bool compare);

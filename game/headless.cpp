@@ -77,8 +77,7 @@ int runHeadless(const Options& options) {
     const std::vector<uint32_t> shown = options.out.empty() ? std::vector<uint32_t>() : reportFrames(frames);
     for (const uint32_t frame : shown) report.pictures.push_back({frame, timeAt(frame), {}, {}});
 
-    std::optional<Measures> measures;
-    if (options.measure) measures.emplace(0);
+    const auto measures = options.measure ? std::make_shared<Measures>(0) : nullptr;
     graph::Graph& graph = engine.graph();
     {
         app::Progress progress("rendering", frames);
@@ -110,7 +109,8 @@ int runHeadless(const Options& options) {
             frame.sampleStep = measures ? measuredStep(options.size) : 0;
             const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
             if (i == 0) expectPass(options, graph);
-            if (measures) engine.expect(readInto(*measures, engine.capture(), graph, outputs, measuredFrame(frame, stage.world, i)), "reading samples back");
+            if (measures)
+                engine.expect(readInto(measures, engine.capture(), graph, outputs, measuredFrame(frame, stage.world, i)), "reading samples back");
             graph.output(outputs.color);
 
             const auto place = std::find(shown.begin(), shown.end(), i);
@@ -145,8 +145,10 @@ int runHeadless(const Options& options) {
         report.write(options.out);
         fmt::print("{}: {} pictures, summary.html, timings.json\n", options.out.string(), frames);
     }
-    const std::string methods = options.compare ? fmt::format("{} | {}", label(options.choice.values()), label(options.compare->values())) : options.choice.info().id;
-    fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, methods, options.size.width, options.size.height, engine.device().caps().deviceName, report.table());
+    const std::string methods =
+        options.compare ? fmt::format("{} | {}", label(options.choice.values()), label(options.compare->values())) : options.choice.info().id;
+    fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, methods, options.size.width, options.size.height, engine.device().caps().deviceName,
+               report.table());
     if (measures) fmt::print("{}", summary(measures->all()));
     return closingWords(options, engine);
 }

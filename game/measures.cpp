@@ -152,7 +152,8 @@ void Measures::work() {
 Measures::Reading Measures::measure(const Job& job, Past& past) const {
     const Frame& frame = job.frame;
     Past::Seen seen = Past::decode(frame, job.texels);
-    Reading reading{.number = frame.number, .time = frame.time, .size = seen.captured.size, .step = frame.step, .sides = std::vector<Side>(frame.sides.size())};
+    Reading reading{.number = frame.number, .time = frame.time, .size = seen.captured.size, .step = frame.step};
+    reading.sides.resize(frame.sides.size());
     const bool follows = past.frame && !frame.cut && past.frame->number + 1 == frame.number && past.seen.captured.size == seen.captured.size &&
                          past.frame->sides.size() == frame.sides.size();
     const bool unchanged = follows && past.frame->sides == frame.sides && past.frame->falloff == frame.falloff;
@@ -164,18 +165,20 @@ Measures::Reading Measures::measure(const Job& job, Past& past) const {
         found && found->channels[0].obscurance.width == seen.captured.size.x && found->channels[0].obscurance.height == seen.captured.size.y) {
         seen.reference = truth::Traced{found->channels[0].obscurance, found->channels[0].error};
         for (float& v : seen.reference->visibility.values) v = 1.0f - v;
-        reading.rays = float(double(found->totalRays) / double(std::max<size_t>(1, size_t(std::count(seen.visible.begin(), seen.visible.end(), 1)))));
+        const auto surfaces = std::count(seen.visible.begin(), seen.visible.end(), 1);
+        if (surfaces) reading.rays = float(double(found->totalRays) / double(surfaces));
     }
     std::optional<truth::Correspondence> way;
     if (unchanged) way = truth::correspond(seen.captured, past.seen.captured, seen.motion);
     if (way) reading.share = way->share();
     const truth::Traced nothing{truth::Plane(seen.captured.size.x, seen.captured.size.y), {}};
     const bool judged = seen.reference && past.seen.reference;
+    const truth::Traced &now = judged ? *seen.reference : nothing, &before = judged ? *past.seen.reference : nothing;
     for (size_t i = 0; i < seen.sides.size(); ++i) {
         Side& side = reading.sides[i];
         if (seen.reference) side.errors = truth::errors(seen.sides[i], seen.reference->visibility, seen.visible);
         if (way) {
-            const truth::Change change = truth::change(*way, seen.sides[i], past.seen.sides[i], judged ? *seen.reference : nothing, judged ? *past.seen.reference : nothing);
+            const truth::Change change = truth::change(*way, seen.sides[i], past.seen.sides[i], now, before);
             if (change.pixels) side.change = change.difference;
             if (change.pixels && judged) side.excess = change.excess(), side.flickerOfError = change.flickerOfError;
         }

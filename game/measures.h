@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -97,8 +98,8 @@ private:
 
 // What the worker needs to know of a frame that is about to be added to a graph.
 Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::World& world, uint64_t number);
-// Has the frame's samples read back and handed to `measures` when they have arrived; nothing when there are none.
-gpu::Status readInto(Measures& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs, Measures::Frame frame);
+// Has the frame's samples read back and handed to `measures` when they have arrived, if it is still there.
+gpu::Status readInto(const std::shared_ptr<Measures>& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs, Measures::Frame frame);
 
 // Tables of readings: a row a frame and side; and their means, as text.
 std::string csv(const std::vector<Measures::Reading>& readings);

@@ -7,7 +7,9 @@
 namespace obscura::game {
 
 Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::World& world, uint64_t number) {
-    Measures::Frame measured{.number = number, .camera = frame.camera, .visible = frame.visible, .step = frame.sampleStep, .time = frame.time, .cut = frame.cut};
+    Measures::Frame measured{.number = number, .camera = frame.camera, .visible = frame.visible, .step = frame.sampleStep};
+    measured.time = frame.time;
+    measured.cut = frame.cut;
     measured.animated = world.duration() > 0.0f;
     measured.instances = world.instances().size();
     measured.sides.push_back(*frame.method);
@@ -22,9 +24,11 @@ Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::Wo
     return measured;
 }
 
-gpu::Status readInto(Measures& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs, Measures::Frame frame) {
+gpu::Status readInto(const std::shared_ptr<Measures>& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs, Measures::Frame frame) {
     if (!outputs.samples) return gpu::Status::ok;
-    return capture.addRaw(graph, outputs.samples, [&measures, frame = std::move(frame)](std::span<const std::byte> texels) { measures.add(frame, texels); });
+    return capture.addRaw(graph, outputs.samples, [wanting = std::weak_ptr(measures), frame = std::move(frame)](std::span<const std::byte> texels) {
+        if (const auto there = wanting.lock()) there->add(frame, texels);
+    });
 }
 
 std::string csv(const std::vector<Measures::Reading>& readings) {
@@ -47,7 +51,8 @@ std::string summary(const std::vector<Measures::Reading>& readings) {
     if (!last.problem.empty()) return fmt::format("measures: {}\n", last.problem);
     size_t judged = 0;
     for (const Measures::Reading& reading : readings) judged += reading.rays > 0.0f;
-    std::string text = fmt::format("measures of {} x {} pixels, every {}; {} of {} frames have a reference\n", last.size.x, last.size.y, last.step, judged, readings.size());
+    std::string text = fmt::format("measures of {} x {} pixels, every {}; {} of {} frames have a reference\n", last.size.x, last.size.y, last.step,
+                                   judged, readings.size());
     text += fmt::format("{:<4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "side", "D_A", "noise", "noise P99", "bias", "eA", "e<5%", "excess", "F_e");
     for (size_t i = 0; i < last.sides.size(); ++i) {
         const auto mean = [&](auto of) {
@@ -58,7 +63,9 @@ std::string summary(const std::vector<Measures::Reading>& readings) {
                     if (const std::optional<float> value = of(reading.sides[i])) sum += double(*value), ++known;
             return known ? fmt::format("{:.4f}", sum / double(known)) : std::string("-");
         };
-        const auto error = [&](float truth::Errors::* of) { return mean([of](const Measures::Side& s) { return s.errors ? std::optional<float>((*s.errors).*of) : std::nullopt; }); };
+        const auto error = [&](float truth::Errors::* of) {
+            return mean([of](const Measures::Side& s) { return s.errors ? std::optional<float>((*s.errors).*of) : std::nullopt; });
+        };
         const auto& noise = last.sides[i].noise;
         text += fmt::format("{:<4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", i ? "B" : "A", mean([](const Measures::Side& s) { return s.change; }),
                             noise ? fmt::format("{:.4f}", noise->mean) : "-", noise ? fmt::format("{:.4f}", noise->p99) : "-", error(&truth::Errors::bias),

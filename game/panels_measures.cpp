@@ -26,12 +26,12 @@ void row(const Measures::Reading& reading, const char* name, const char* sentenc
 void drawMeasures(const Session& session) {
     const std::optional<Measures::Reading> reading = session.measures->means();
     if (!reading) return ImGui::TextUnformatted("waiting for the first frame");
-    ImGui::PushTextWrapPos(0.0f);
-    if (!reading->problem.empty()) ImGui::TextUnformatted(reading->problem.c_str());
-    if (ImGui::BeginTable("measures", 1 + int(reading->sides.size()), ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+    if (!reading->problem.empty()) ImGui::TextWrapped("%s", reading->problem.c_str());
+    if (ImGui::BeginTable("measures", 1 + int(reading->sides.size()), ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
         ImGui::TableSetupColumn("of visibility, 0 to 1");
-        ImGui::TableSetupColumn("A");
-        if (reading->sides.size() > 1) ImGui::TableSetupColumn("B");
+        const float width = ImGui::CalcTextSize("-0.00000").x;
+        ImGui::TableSetupColumn("A", ImGuiTableColumnFlags_WidthFixed, width);
+        if (reading->sides.size() > 1) ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthFixed, width);
         ImGui::TableHeadersRow();
         using Side = Measures::Side;
         row(*reading, "change D_A", "Mean change from frame to frame along motion, where the same surface stayed in sight. Over the last 32 frames.",
@@ -54,6 +54,7 @@ void drawMeasures(const Session& session) {
             [](const Side& s) { return s.flickerOfError; });
         ImGui::EndTable();
     }
+    ImGui::PushTextWrapPos(0.0f);
     if (reading->stillFrames) ImGui::TextUnformatted(fmt::format("noise over {} still frames", reading->stillFrames).c_str());
     else if (reading->settling) ImGui::TextUnformatted(fmt::format("still for {} of {} frames", reading->settling, Measures::kSettling).c_str());
     else ImGui::TextUnformatted("noise: while camera and world stand still");

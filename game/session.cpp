@@ -201,7 +201,7 @@ void Session::act(Action action, int key) {
             if (replaying()) return follow(false), say("free camera");
             startReplay();
             break;
-        case Action::measure: measures = measures ? nullptr : std::make_unique<Measures>(kMostWaiting); break;
+        case Action::measure: measures = measures ? nullptr : std::make_shared<Measures>(kMostWaiting); break;
         case Action::pause: paused = !paused; break;
         case Action::stepBack: stepTime(-kFrame); break;
         case Action::stepForward: stepTime(kFrame); break;

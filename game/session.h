@@ -56,7 +56,7 @@ public:
     bool dragDivider(const app::Window& window, bool onPanel);
     std::string comparison() const;  // as options of the command line
     void follow(bool on);    // the camera moves by itself; off: it is the player's, where it is
-    std::unique_ptr<Measures> measures;  // null: nothing is measured
+    std::shared_ptr<Measures> measures;  // null: nothing is measured
     // Why the measures have no reference, or the command that makes it.
     std::string referenceHint(const Measures::Reading& reading) const;
     void startReplay();      // of options.camera's path, or of what was recorded last

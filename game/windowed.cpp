@@ -81,7 +81,8 @@ void Game::drawFrame() {
     const render::FrameOptions frame = m_session.frame(m_presenter.size());
     const render::Outputs outputs = m_engine.renderer().add(graph, m_session.stage.world, frame);
     if (m_session.measures)
-        m_engine.expect(readInto(*m_session.measures, m_engine.capture(), graph, outputs, measuredFrame(frame, m_session.stage.world, m_shown)), "reading samples back");
+        m_engine.expect(readInto(m_session.measures, m_engine.capture(), graph, outputs, measuredFrame(frame, m_session.stage.world, m_shown)),
+                        "reading samples back");
     m_session.passNames.clear();
     for (const graph::Graph::Written& written : graph.written())
         if (std::find(m_session.passNames.begin(), m_session.passNames.end(), written.pass) == m_session.passNames.end())
