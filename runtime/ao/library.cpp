@@ -71,7 +71,8 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     for (size_t i = 0; i < registry().size(); ++i) {
         if (registry()[i].info != &values.info()) continue;
         visibility = m_methods[i]->add(graph, inputs, values);
-        if (visibility && values.has("offscreen"))
+        const bool tracesItself = registry()[i].needs && (registry()[i].needs(values) & kVolume);
+        if (visibility && values.has("offscreen") && !tracesItself)
             visibility = m_offScreen.add(graph, inputs, visibility, m_methods[i]->blocking(inputs, values),
                                          {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
     }

@@ -1,5 +1,5 @@
-// A floor and a tall box that stands on it, along the plane in which the picture's guard band ends when the camera looks away by
-// kAway: seen from 1.6 m above the floor, the box is outside of the buffer by a hand's breadth, its obscurance within the picture.
+// A floor and a tall box that stands on it, by default along the plane in which the picture's guard band ends when the camera looks
+// away(): seen from 1.6 m above the floor, the box is outside of the buffer by a hand's breadth, its obscurance within the picture.
 // Depth, normals and bits are cast analytically for any yaw of the camera; the truth by rays.
 #pragma once
 
@@ -11,16 +11,22 @@ struct TallBox : Room {
     static constexpr double kPi = 3.14159265358979;
     static constexpr float kCell = 0.08f, kFloor = -1.6f;
     // World: the camera at the origin, y up; yaw 0 looks down -z, more turns left.
-    static constexpr double kLow[3] = {0.1, kFloor, -6.0}, kHigh[3] = {1.3, 1.4, -3.0};
-    static constexpr uint32_t kGuardX = 19, kGuardY = 11, kWide = 192, kHigh_ = 108;
-    static double away() { return std::atan(std::tan(kPi / 6) * double(kWide) / kHigh_ * (kWide + 2.0 * kGuardX) / kWide); }  // half of the field of view
+    using Point = std::array<double, 3>;
+    Point low{0.1, kFloor, -6.0}, high{1.3, 1.4, -3.0};
+    // Half of the field of view, guard band and all.
+    double away() const { return std::atan(std::tan(kPi / 6) * double(width) / visibleTall()); }
+    uint32_t visibleWide() const { return width - 2 * guards.width; }
+    uint32_t visibleTall() const { return height - 2 * guards.height; }
 
     double yaw = 0.0;
-    VkExtent2D guards{kGuardX, kGuardY};
+    VkExtent2D guards{19, 11};
 
-    TallBox() {
-        width = kWide + 2 * kGuardX;
-        height = kHigh_ + 2 * kGuardY;
+    explicit TallBox(uint32_t wide = 192) { build(wide); }
+    TallBox(const Point& lowest, const Point& highest) : low(lowest), high(highest) { build(192); }
+    void build(uint32_t wide) {
+        guards = {wide / 10, wide / 17};
+        width = wide + 2 * guards.width;
+        height = wide * 9 / 16 + 2 * guards.height;
         fill();
         look(away());
     }
@@ -28,7 +34,7 @@ struct TallBox : Room {
     // The bits rest; the camera turns.
     void look(double turned) {
         yaw = turned;
-        const double fy = 1.0 / std::tan(kPi / 6) * kHigh_ / height, fx = fy * height / width;
+        const double fy = 1.0 / std::tan(kPi / 6) * visibleTall() / height, fx = fy * height / width;
         const float p[16] = {float(fx), 0, 0, 0, 0, float(-fy), 0, 0, 0, 0, 0, -1, 0, 0, 0.1f, 0};
         std::memcpy(projection, p, sizeof(p));
         const float scale = 1.0f / kCell, half = 0.5f * float(volume.cells), c = float(std::cos(yaw)) * scale, s = float(std::sin(yaw)) * scale;
@@ -38,10 +44,10 @@ struct TallBox : Room {
         normals.assign(size_t(width) * height * 4, 0.0f);
         for (uint32_t y = 0; y < height; ++y)
             for (uint32_t x = 0; x < width; ++x) {
-                const std::array<double, 3> d = direction(x + 0.5, y + 0.5);
+                const Point d = direction(x + 0.5, y + 0.5);
                 const size_t i = size_t(y) * width + x;
                 double t = d[1] < 0.0 ? kFloor / d[1] : 1e9;
-                std::array<double, 3> n{0, 1, 0};
+                Point n{0, 1, 0};
                 int axis = 0;
                 const double box = hit({0, 0, 0}, d, axis);
                 if (box < t) {
@@ -63,22 +69,22 @@ struct TallBox : Room {
     }
 
     // World direction through a place of the buffer, px; one metre of linear depth long.
-    std::array<double, 3> direction(double x, double y) const {
+    Point direction(double x, double y) const {
         const double ex = (x / width * 2.0 - 1.0) / double(projection[0]), ey = (y / height * 2.0 - 1.0) / double(projection[5]);
         return {ex * std::cos(yaw) - std::sin(yaw), ey, -ex * std::sin(yaw) - std::cos(yaw)};
     }
     // Where the visible part shows a point of the world, px.
-    std::array<double, 2> pixelOf(const std::array<double, 3>& p) const {
+    std::array<double, 2> pixelOf(const Point& p) const {
         const double right = p[0] * std::cos(yaw) - p[2] * std::sin(yaw), ahead = -p[0] * std::sin(yaw) - p[2] * std::cos(yaw);
-        return {(right / ahead * double(projection[0]) + 1.0) * 0.5 * width - kGuardX, (p[1] / ahead * double(projection[5]) + 1.0) * 0.5 * height - kGuardY};
+        return {(right / ahead * double(projection[0]) + 1.0) * 0.5 * width - guards.width, (p[1] / ahead * double(projection[5]) + 1.0) * 0.5 * height - guards.height};
     }
 
     // Distance along d to the box in lengths of d, and the axis of the face; 1e9: none.
-    static double hit(const std::array<double, 3>& o, const std::array<double, 3>& d, int& axis) {
+    double hit(const Point& o, const Point& d, int& axis) const {
         double from = 0.0, to = 1e9;
         for (int k = 0; k < 3; ++k) {
             const size_t i = size_t(k);
-            double a = (kLow[k] - o[i]) / d[i], b = (kHigh[k] - o[i]) / d[i];
+            double a = (low[i] - o[i]) / d[i], b = (high[i] - o[i]) / d[i];
             if (a > b) std::swap(a, b);
             if (a > from) from = a, axis = k;
             to = std::min(to, b);
@@ -86,7 +92,7 @@ struct TallBox : Room {
         return from < to ? from : 1e9;
     }
     // Obscurance of a point of the floor.
-    static double truth(const std::array<double, 3>& p, const ao::Falloff& rho) {
+    double truth(const Point& p, const ao::Falloff& rho) const {
         constexpr int kSide = 48;
         double sum = 0.0;
         for (int i = 0; i < kSide; ++i)
@@ -110,12 +116,12 @@ private:
         const uint32_t floor = cell(kFloor);
         for (uint32_t x = 0; x < cells; ++x)
             for (uint32_t z = 0; z < cells; ++z) set(x, floor, z);
-        uint32_t low[3], high[3];
-        for (int i = 0; i < 3; ++i) low[i] = cell(kLow[i]), high[i] = cell(kHigh[i]);
-        for (uint32_t x = low[0]; x <= high[0]; ++x)
-            for (uint32_t y = low[1]; y <= high[1]; ++y)
-                for (uint32_t z = low[2]; z <= high[2]; ++z)
-                    if (x == low[0] || x == high[0] || y == low[1] || y == high[1] || z == low[2] || z == high[2]) set(x, y, z);
+        uint32_t a[3], b[3];
+        for (size_t i = 0; i < 3; ++i) a[i] = cell(low[i]), b[i] = cell(high[i]);
+        for (uint32_t x = a[0]; x <= b[0]; ++x)
+            for (uint32_t y = a[1]; y <= b[1]; ++y)
+                for (uint32_t z = a[2]; z <= b[2]; ++z)
+                    if (x == a[0] || x == b[0] || y == a[1] || y == b[1] || z == a[2] || z == b[2]) set(x, y, z);
     }
 };
 

@@ -11,6 +11,7 @@
 //   for the whole; the falloff is the shared type.
 // - Lines start one whole pixel above the surface [eq. 13 gives half of one]: with it any plane is open to the last bit.
 // - The elevation is that of the point found, a texel's centre, not its projection on the plane of n and t.
+// - Normal rays may run through voxels instead of the depth buffer (`rays_in`); the off-screen pass has nothing left to add then.
 // - Surfaces have a thickness, one for what bends a line and one for what blocks a ray: what passes further behind them
 //   than that is not concerned [sec. 5 names the trouble: figure 13's outliers]. In the paper everything is endlessly thick.
 //
@@ -18,6 +19,7 @@
 // normal rays (1 - O_N alone, and both), gather when interleaved, blur.
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "ao/resolve.h"
 
@@ -37,12 +39,14 @@ struct Constants {  // of horizons.comp and normal_rays.comp
 enum Term : uint32_t { kBoth, kHorizon, kNormalRays, kMarching };
 enum Blur : uint32_t { kNone, kDepthDeviation, kSurface };
 const char* const kTerms[] = {"both", "horizon", "normal rays", "ray marching"};
+const char* const kSpaces[] = {"depth", "voxels"};
 const char* const kBlurs[] = {"none", "depth", "surface"};
 
 const Parameter kParameters[] = {
     {"directions", "", 1, 24, 8, true, {}, "Directions around the normal, N_d; cost grows with directions x steps x (1 + normal rays)."},
     {"steps", "", 1, 64, 18, true, {}, "Samples along each horizon and each normal ray, N_s."},
     {"normal_rays", "", 0, 8, 1, true, {}, "Rays above each horizon, N_n: contact under what does not touch. 0 halves the cost."},
+    {"rays_in", "", 0, 1, 0, true, {kSpaces, 2}, "What normal rays run through: the depth buffer, or voxels of the world, which hold what the picture does not show."},
     {"radius", "m", 0, 100, 0, false, {}, "Radius of influence, R; 0 is the falloff's own reach."},
     {"thickness", "R", 0.01f, 100, 0.15f, false, {}, "How thick what blocks a normal ray is, in radii; the paper's is endless and darkens behind silhouettes."},
     {"horizon_thickness", "R", 0.01f, 100, 0.35f, false, {}, "How thick what bends a horizon is, in radii; endless in the paper."},
@@ -76,6 +80,7 @@ public:
         auto result = std::make_unique<HorizonSplit>();
         const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/horizon_split/horizons.comp", &result->m_horizons},
                                                                                 {"ao/horizon_split/normal_rays.comp", &result->m_normalRays},
+                                                                                {"ao/horizon_split/normal_rays_voxels.comp", &result->m_voxelRays},
                                                                                 {"ao/horizon_split/blur.comp", &result->m_blur}};
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
@@ -105,8 +110,13 @@ public:
             .constants(tracing).dispatch(visible.x, visible.y);
         if (constants.rays) {
             const graph::ImageId above = graph.image("horizon_split.above horizon", picture), both = graph.image("horizon_split.visibility", picture);
-            graph.pass("horizon_split.normal rays", m_normalRays).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(result).read(horizons)
-                .write(above).write(both).constants(constants).dispatch(visible.x, visible.y);
+            const bool inVoxels = values.count("rays_in") && inputs.volume;
+            graph::Pass& pass = graph.pass("horizon_split.normal rays", inVoxels ? m_voxelRays : m_normalRays);
+            pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(result).read(horizons).write(above).write(both);
+            if (inVoxels) pass.read(inputs.volume.block).read(inputs.volume.bits);
+            else if (values.count("rays_in") && !std::exchange(m_said, true))
+                graph.device().log(gpu::Severity::warning, "horizon_split: the frame brings no volume, so normal rays run through the depth buffer");
+            pass.constants(constants).dispatch(visible.x, visible.y);
             result = term == kNormalRays ? above : both;
         }
         if (side > 1) result = m_gather.add(graph, inputs, result, side);
@@ -135,14 +145,17 @@ private:
     }
 
     gpu::Program m_horizons;
-    gpu::Program m_normalRays;
+    gpu::Program m_normalRays, m_voxelRays;
     gpu::Program m_blur;
     Denoise m_denoise;
+    bool m_said = false;
     Gather m_gather;
 };
 
 }  // namespace
 
-MethodEntry horizonSplitEntry() { return {&kInfo, &HorizonSplit::create}; }
+MethodEntry horizonSplitEntry() {
+    return {&kInfo, &HorizonSplit::create, [](const Values& values) { return values.count("rays_in") ? uint32_t(kVolume) : 0u; }};
+}
 
 }  // namespace obscura::ao

@@ -1,0 +1,68 @@
+// Normal rays: what blocks the hemisphere above the horizon [Dimitrov, sec. 3.3]. Every direction has its own share 1-H^2.
+// In: linear depth, packed normals, 1 - O_T, H^2 per direction. Out: 1 - O_N, and both terms together.
+// What rays run through is the includer's, which defines, before it includes this, `struct Space` and declares
+//     Space spaceOf(View view, Origin origin);                        what a pixel's rays need
+//     vec3 towards(Space space, vec3 d);                              an eye-space direction as a ray has it
+//     float blockedAt(Space space, vec3 ray, Steps walk, float first);  how far along it something stands in its way, metres, or kFree
+#ifndef OBSCURA_HORIZON_SPLIT_NORMAL_RAYS_GLSL
+#define OBSCURA_HORIZON_SPLIT_NORMAL_RAYS_GLSL
+#include "shared/octahedral.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform readonly image2D belowHorizon;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D horizons;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D aboveHorizon;
+layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
+
+const float kFree = 3e38;
+Space spaceOf(View view, Origin origin);
+vec3 towards(Space space, vec3 d);
+float blockedAt(Space space, vec3 ray, Steps walk, float first);
+
+void main() {
+    View view = viewBlock;  // copies, so that the loops hold them in registers
+    FalloffBlock rho = falloffBlock;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 texel = p + ivec2(view.guard);
+    float z = imageLoad(depth, texel).x;
+    if (isSky(view, z)) {
+        imageStore(aboveHorizon, p, vec4(1.0));
+        imageStore(visibility, p, vec4(1.0));
+        return;
+    }
+    Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), offset);
+    Noise noise = noiseAt(view, texel);
+    Space space = spaceOf(view, origin);
+    vec3 up = towards(space, origin.n);
+    Steps walk = stepsOf(steps, radius, spacing, rayThickness);
+    Share part = shareOfPixel(view, p, noise, directions, side);
+    vec2 direction = part.first;
+    uint count = part.count;
+
+    float occlusion = 0.0;
+    uint word = 0u;
+    for (uint i = 0u; i < count; ++i) {
+        if ((i & 3u) == 0u) word = imageLoad(horizons, wordAt(p, i >> 2, view.visible)).x;
+        float horizon2 = float(word & 255u) / 255.0;
+        word >>= 8u;
+        vec3 along = towards(space, direction.x * origin.b + direction.y * origin.c);
+        float first = mix(0.5, fract(noise.step + float(i) * kNextStep), jitter) * walk.part;
+        float elevation = fract(noise.normal + float(i) * kNextNormal);
+        // Equal shares of what is left above this direction's horizon [Dimitrov, eq. 8-11, per direction].
+        float share = (1.0 - horizon2) / float(rays);
+        for (uint k = 0u; k < rays; ++k) {
+            float sine2 = horizon2 + (float(k) + elevation) * share;
+            vec3 ray = sqrt(max(1.0 - sine2, 0.0)) * along + sqrt(sine2) * up;
+            occlusion += share * falloff(rho, blockedAt(space, ray, walk, first));
+        }
+        direction = part.next * direction;
+    }
+    occlusion /= float(count);
+    imageStore(aboveHorizon, p, vec4(clamp(1.0 - occlusion, 0.0, 1.0)));
+    imageStore(visibility, p, vec4(clamp(imageLoad(belowHorizon, p).x - occlusion, 0.0, 1.0)));
+}
+
+#endif
