@@ -15,7 +15,7 @@ struct Trace {  // trace.comp
 
 constexpr uint32_t kScale = 2;      // a map of a quarter of the pixels
 constexpr float kOffset = 2.0f;     // cells; a plane's own conservative cells end sqrt(3) above it
-constexpr float kGrain = 0.1f;      // metres a cell of the noise
+constexpr float kGrain = 1.25f;     // cells: finer noise would not rest under the map's pixels, coarser shows as blots
 constexpr float kWindow = 16.0f;    // px
 constexpr float kRange = 0.25f;     // of the falloff's reach
 constexpr float kFarthest = 1e18f;  // its square is a float
@@ -39,7 +39,7 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
     const uint32_t width = (visible.x + kScale - 1) / kScale, height = (visible.y + kScale - 1) / kScale;
     const graph::ImageId map = graph.image("offscreen.map", {VK_FORMAT_R16_SFLOAT, width, height});
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
-    const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, 1.0f / kGrain,
+    const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
                       std::min(blocking.reach, kFarthest), blocking.thickness};
     graph.pass("offscreen.trace", m_trace).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
         .read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);

@@ -23,7 +23,7 @@ layout(push_constant) uniform Constants {
     uint scale;       // pixels a map's pixel, each way
     uint hidden;      // 1: what stands unseen inside the picture counts too
     float offset;     // of rays' origin along the normal, cells
-    float grain;      // cells of the noise a metre
+    float grain;      // cells a side of the noise's
     float reach;      // Blocking: metres from the receiver
     float thickness;  // and behind the surface shown
 };
@@ -67,7 +67,7 @@ void main() {
     vec3 up = cellsAlong(volume, n) * metres;
     vec3 receiver = cellOf(volume, here);
     vec3 origin = receiver + offsetCells * up, start = toPixels(lens, here + lift * n);
-    vec3 xi = fract(latticeNoise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
+    vec3 xi = fract(latticeNoise(ivec3(floor((receiver + volume.anchor.xyz / metres) / grain))) + frameShift(view));
     vec3 tangent, bitangent;
     around(up, tangent, bitangent);
     vec3 tangentPixels = toPixels(lens, eyeAlong(volume, tangent)), bitangentPixels = toPixels(lens, eyeAlong(volume, bitangent)), upPixels = toPixels(lens, n);
