@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "ao/method.h"
+#include "ao/resolve.h"
 
 namespace obscura::ao {
 
@@ -23,7 +24,7 @@ namespace {
 // What every method has beside its own: the library puts the shared temporal pass behind it.
 const Parameter kShared[] = {
     {"temporal", "", 0, 0.98f, 0, false, {}, "Most weight the past gets, reprojected by motion vectors; 0: none. Samples then rotate over frames."},
-    {"temporal_clip", "sd", 0, 8, 1.5f, false, {}, "The past is drawn into so many standard deviations of the present around; 0 lets moved occluders trail."},
+    {"temporal_clip", "sd", 0, 8, TemporalSettings{}.clip, false, {}, "The past is drawn into so many standard deviations of the present around; 0 lets moved occluders trail."},
 };
 
 // And what every method has that looks at the screen alone: the off-screen pass, before the temporal one.

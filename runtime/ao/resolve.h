@@ -9,7 +9,8 @@ namespace obscura::ao {
 graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible, const char* passName);
 
 // 5x5 Gaussian (6, 4, 1) x max(0, n.n') x 1 / (1 + sharpness |plane distance| / depth): smooths over a surface, keeps its edges. The
-// plane distance is that of the neighbour's position from the pixel's tangent plane.
+// plane distance is that of the neighbour's position from the pixel's tangent plane. Where a history averages noise over frames the blur
+// has less to do and is stricter, so that it takes fewer details with it.
 class Denoise {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Denoise& out);
@@ -45,12 +46,13 @@ struct TemporalSettings {
     float history = 0.9f;         // most weight of the past, 0 (off) to 0.98
     float depthTolerance = 0.02f; // how far off the surface's plane a past pixel may lie, in its depths [Hoang 2012, eps]
     float normalTolerance = 0.9f; // least cosine between the normals; -1: any
-    float clip = 1.0f;            // past beyond so many standard deviations of the 3x3 around is drawn in: occluders that
+    float clip = 1.5f;            // past beyond so many standard deviations of the 3x3 around is drawn in: occluders that
                                   // move leave no trail on receivers that do not. 0: off, as in the papers
     float clipFloor = 0.01f;      // and this much visibility more
 };
 
-// Temporal reprojection. Wants Inputs::motion; without it visibility passes through. Owns its history: one object a method.
+// Temporal reprojection. Wants Inputs::motion; without it visibility passes through. Owns its history; the
+// library has one, and voids it when the method is another.
 class Temporal {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Temporal& out);

@@ -263,6 +263,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     }
     if (isDifference(options.view) && out.sides[1])
         out.color = impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
+    if (options.view == View::history || options.view == View::rejected) out.color = impl.views.addHistory(graph, options.view, view);
     if (!out.color) out.color = impl.views.add(graph, options.view, g, out.visibility, view);
     return out;
 }

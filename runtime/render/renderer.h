@@ -15,13 +15,15 @@
 namespace obscura::render {
 
 enum class View : uint8_t {
-    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signedDifference, pass
+    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signedDifference,
+    history, rejected, pass
 };
 // "final", "visibility", ... and "pass:NAME" (what the graph's pass NAME wrote); false when unknown.
 bool parseView(const std::string& text, View& view, std::string& pass);
 const char* name(View view);
 inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
-                                  View::baseColor, View::roughness, View::metalness, View::emission, View::difference, View::signedDifference};
+                                  View::baseColor, View::roughness, View::metalness, View::emission, View::difference, View::signedDifference,
+                                  View::history, View::rejected};
 // Of two methods' visibility; where only one is run they show that one's.
 constexpr bool isDifference(View view) { return view == View::difference || view == View::signedDifference; }
 

@@ -9,7 +9,7 @@ namespace obscura::render {
 namespace {
 
 constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion",
-                                  "base-color", "roughness", "metalness", "emission", "difference", "signed-difference", "pass"};
+                                  "base-color", "roughness", "metalness", "emission", "difference", "signed-difference", "history", "rejected", "pass"};
 
 // How to show an image of which only the format is known.
 uint32_t modeOf(VkFormat format, const std::string& name) {
@@ -77,7 +77,7 @@ graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t 
         block.scale = {float(desc.width) / float(frame.visible.x), float(desc.height) / float(frame.visible.y)};
     }
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
-    const bool integer = mode == shared::kViewNormal || mode == shared::kViewInteger;
+    const bool integer = mode == shared::kViewNormal || mode == shared::kViewInteger || mode == shared::kViewHistory || mode == shared::kViewRejected;
     graph.pass("view", integer ? m_uint : m_float).readMip(source, 0).write(picture).constants(block).dispatch(frame.visible.x, frame.visible.y);
     return picture;
 }
@@ -94,6 +94,13 @@ graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, grap
         case View::emission: return show(graph, g.emission, shared::kViewColor, frame);
         default: return show(graph, visibility, shared::kViewGrey, frame);
     }
+}
+
+graph::ImageId Views::addHistory(graph::Graph& graph, View view, const shared::View& frame) {
+    for (const graph::Graph::Written& written : graph.written())
+        if (written.pass == "resolve.temporal" && graph.desc(written.image).format == VK_FORMAT_R32G32_UINT)
+            return show(graph, written.image, view == View::history ? shared::kViewHistory : shared::kViewRejected, frame);
+    return {};
 }
 
 graph::ImageId Views::split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider) {

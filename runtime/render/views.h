@@ -16,6 +16,9 @@ public:
     graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, graph::ImageId visibility, const shared::View& frame);
     // What the pass of that name wrote first; none when no such pass has been added or its image cannot be shown.
     graph::ImageId addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame);
+    // What the temporal pass made of the past: frames that a pixel's history holds, logarithmic, white 63 of them; or, white, where the past was
+    // refused or drawn in so far that it begins anew. None where no history is kept.
+    graph::ImageId addHistory(graph::Graph& graph, View view, const shared::View& frame);
     // Of two sides' visibility, visible size: A left of the divider and B right of it, R16F; or their difference as a picture,
     // |A - B| / range as grey or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is darker).
     graph::ImageId split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider);

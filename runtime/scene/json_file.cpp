@@ -26,4 +26,12 @@ glm::vec3 vector3(const JsonAt& at) {
     return {at.at(size_t(0)).number(), at.at(1).number(), at.at(2).number()};
 }
 
+std::vector<std::string> texts(const JsonAt& at) {
+    std::vector<std::string> list;
+    at.expectArray();
+    for (size_t i = 0; i < at.size(); ++i) list.push_back(at.at(i).text());
+    if (list.empty()) at.fail("must name at least one");
+    return list;
+}
+
 }  // namespace obscura::scene

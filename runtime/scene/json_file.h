@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -20,5 +22,6 @@ private:
 };
 
 glm::vec3 vector3(const JsonAt& at);
+std::vector<std::string> texts(const JsonAt& at);  // a list of at least one
 
 }  // namespace obscura::scene

@@ -1,7 +1,6 @@
 #include "truth/stability.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,7 +9,8 @@ namespace obscura::truth {
 
 namespace {
 
-constexpr float kDepthTolerance = 0.02f;   // of the distance
+constexpr float kDepthTolerance = 0.02f;   // of the distance, where nothing moved
+constexpr float kPlaneTolerance = 0.05f;   // of a pixel's width on the surface
 constexpr float kNormalTolerance = 0.906f; // cos 25 degrees
 constexpr float kChanged = 0.1f;           // of visibility: what an event did
 
@@ -65,6 +65,7 @@ Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before,
             const glm::vec3 facing = glm::mat3(previousFromEye) * now.normals[source];
             // A surface that moves is not where the camera alone would have it: its plane is laid through where its pixel was.
             const glm::vec3 anchor = onRay(lensBefore, at + guard, -expected.z);
+            const float tolerance = kPlaneTolerance * (lensBefore.orthographic > 0.5f ? 1.0f : -expected.z) / lensBefore.pixelsPerMetre;
             int agree = 0, asked = 0;
             const glm::ivec2 corner(glm::floor(at));
             const glm::vec2 part = at - glm::floor(at);
@@ -76,7 +77,7 @@ Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before,
                 const size_t there = before.visibleIndex(uint32_t(q.x), uint32_t(q.y));
                 if (before.isSky(there)) continue;
                 const float off = std::fabs(glm::dot(onRay(lensBefore, glm::vec2(q) + guard, before.depth[there]) - anchor, facing));
-                agree += off <= -kDepthTolerance * expected.z && glm::dot(before.normals[there], facing) >= kNormalTolerance;
+                agree += off <= tolerance && glm::dot(before.normals[there], facing) >= kNormalTolerance;
             }
             way.same[target] = agree == asked;
             way.disoccluded[target] = agree == 0;
@@ -114,7 +115,8 @@ Change change(const Correspondence& way, const Plane& now, const Plane& before, 
         ++result.pixels;
     }
     if (result.pixels == 0) return result;
-    double r = 0.0;
+    double r = 0.0, square = 0.0;
+    for (const float change : truth) square += double(change);
     for (uint32_t y = 0; y < way.height; ++y)
         for (uint32_t x = 0; x < way.width; ++x) {
             if (!way.same[size_t(y) * way.width + x]) continue;
@@ -131,6 +133,7 @@ Change change(const Correspondence& way, const Plane& now, const Plane& before, 
     result.difference = float(a / count);
     result.referenceDifference = float(r / count);
     result.flickerOfError = float(std::sqrt(std::max(0.0, e / count)));
+    result.referenceFlicker = float(std::sqrt(std::max(0.0, square / count)));
     return result;
 }
 

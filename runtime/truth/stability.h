@@ -2,7 +2,6 @@
 // its surface is no flicker: frames are compared along motion vectors, where the same surface was in sight.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "truth/metrics.h"
@@ -19,7 +18,9 @@ struct Correspondence {
 };
 
 // `motion` as render::Outputs::motion: pixels from this frame's position to the last's, whole image. "The same surface": in
-// the plane of this pixel's surface within 2 % of the distance, normals within 25 degrees, both seen in the world.
+// the plane of this pixel's surface within a twentieth of a pixel's width there, normals within 25 degrees, both seen in the world.
+// Narrower than a pixel, or the grooves between tiles, which a pixel's middle hits in one frame and misses in the next, would be
+// followed as the floor around them and their change counted as the method's.
 // Throws scene::Error when sizes differ or a frame has no camera or normals.
 Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before, std::span<const glm::vec2> motion);
 
@@ -36,6 +37,7 @@ struct Change {
                                        // mean of the squared change less its variance
     float excess() const { return difference - referenceDifference; }  // F
     float flickerOfError = 0.0f;       // F_e: root mean square of e_t(p) - e_{t-1}(p - v), e = A - R, less the variance of R
+    float referenceFlicker = 0.0f;     // F_R: the same of R alone, what F_e is of a picture in which nothing ever changes
 };
 Change change(const Correspondence& way, const Plane& now, const Plane& before, const Traced& referenceNow, const Traced& referenceBefore);
 

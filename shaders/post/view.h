@@ -49,7 +49,9 @@ uint kViewColor = 0,      // linear colour, sRGB-encoded
      kViewMotion = 5,
      kViewNormal = 6,     // 32-bit packed normals
      kViewInteger = 7,    // any other integers: their low bits
-     kViewValues = 8;     // four channels, stored as they are
+     kViewValues = 8,     // four channels, stored as they are
+     kViewHistory = 9,    // ao/common/temporal.comp's past: frames gathered
+     kViewRejected = 10;  // and where they begin anew
 
 OBSCURA_SHARED_END
 #endif

@@ -17,5 +17,8 @@ void main() {
     ivec2 from = clamp(ivec2((vec2(at) + 0.5) * view.scale + view.offset), ivec2(0), textureSize(source, 0) - 1);
     uvec4 texel = texelFetch(source, from, 0);
     vec3 color = view.mode == kViewNormal ? unpackNormal(texel.x) * 0.5 + 0.5 : vec3(texel.xyz & 255u) / 255.0;
+    float frames = float(texel.y >> 14 & 63u);
+    if (view.mode == kViewHistory) color = vec3(log2(1.0 + frames) / 6.0);
+    if (view.mode == kViewRejected) color = vec3(frames == 1.0 ? 1.0 : 0.0);
     imageStore(picture, at, vec4(color, 1.0));
 }

@@ -20,7 +20,7 @@ Part part(uint32_t first, uint32_t end) {
     p.falloff = "quadratic:2";
     p.width = 32, p.height = 18, p.rays = 64;
     p.first = first, p.end = end;
-    for (uint32_t i = first; i < end; ++i) p.frames.push_back({i, float(i) / 30.0f, 0.1f * float(i), 0.01f, 0.2f, i ? 0.9f : 0.0f, i ? 0.04f : 0.0f, i ? 0.01f : 0.0f, i ? 0.02f : 0.0f});
+    for (uint32_t i = first; i < end; ++i) p.frames.push_back({i, float(i) / 30.0f, 0.1f * float(i), 0.01f, 0.2f, i ? 0.9f : 0.0f, i ? 0.04f : 0.0f, i ? 0.01f : 0.0f, i ? 0.02f : 0.0f, i ? 0.015f : 0.0f});
     if (first == 0) p.still = StaticRow{0.001f, 0.004f};
     else p.events.push_back({first, 100, 3, 0.5f});
     p.passes.push_back({"hbao.horizons", 2.0, 3.0});
@@ -70,6 +70,7 @@ TEST(Parts, summaryIsOfFramesThatHaveOneBefore) {
     EXPECT_NEAR(s.difference, 0.04, 1e-6);
     EXPECT_NEAR(s.excess, 0.03, 1e-6);
     EXPECT_NEAR(s.flickerOfError, 0.02, 1e-6);
+    EXPECT_NEAR(s.referenceFlicker, 0.015, 1e-6);
     EXPECT_EQ(s.worst, 4u);
     EXPECT_EQ(s.milliseconds, 2.0);
     EXPECT_EQ(summarize(part(4, 6)).t90, 3u);

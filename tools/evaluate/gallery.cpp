@@ -1,6 +1,7 @@
 #include "gallery.h"
 
 #include "app/files.h"
+#include "app/page.h"
 #include "false_colour.h"
 #include "page.h"
 
@@ -54,17 +55,6 @@ Json shotJson(const ShotResult& shot, const Options& options, const About& about
     return json;
 }
 
-// JSON inside a script element must not end it.
-std::string forScript(std::string text) {
-    for (size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
-    return text;
-}
-
-void put(std::string& page, const std::string& mark, const std::string& content) {
-    const size_t at = page.find(mark);
-    if (at != std::string::npos) page.replace(at, mark.size(), content);
-}
-
 }  // namespace
 
 std::string galleryPage(const std::vector<ShotResult>& shots, const Options& options, const About& about) {
@@ -76,11 +66,7 @@ std::string galleryPage(const std::vector<ShotResult>& shots, const Options& opt
     data["shots"] = Json::array();
     for (const ShotResult& shot : shots) data["shots"].push_back(shotJson(shot, options, about));
 
-    std::string page = kPageHtml;
-    put(page, "/*STYLE*/", kPageCss);
-    put(page, "/*SCRIPT*/", kPageJs);
-    put(page, "/*DATA*/", forScript(data.dump()));
-    return page;
+    return app::page(kPageHtml, kPageCss, kPageJs, data.dump());
 }
 
 }  // namespace obscura::evaluate

@@ -16,14 +16,6 @@ using app::Complaint;
 
 namespace {
 
-std::vector<std::string> texts(const scene::JsonAt& at) {
-    std::vector<std::string> list;
-    at.expectArray();
-    for (size_t i = 0; i < at.size(); ++i) list.push_back(at.at(i).text());
-    if (list.empty()) at.fail("must name at least one");
-    return list;
-}
-
 // The run that a baseline asks for, with the command line's methods and device.
 Options runOf(const Baseline& baseline, Options options) {
     options.scenes = baseline.scenes;
@@ -81,10 +73,10 @@ Baseline readBaseline(const fs::path& file) {
     baseline.seed = uint32_t(root.at("seed").whole(0, ~0u));
     baseline.relative = float(root.at("relative").number(0.0, 10.0));
     baseline.absolute = float(root.at("absolute").number(0.0, 1.0));
-    baseline.scenes = texts(root.at("scenes"));
-    baseline.cameras = texts(root.at("cameras"));
-    baseline.falloffs = texts(root.at("falloffs"));
-    baseline.references = texts(root.at("references"));
+    baseline.scenes = scene::texts(root.at("scenes"));
+    baseline.cameras = scene::texts(root.at("cameras"));
+    baseline.falloffs = scene::texts(root.at("falloffs"));
+    baseline.references = scene::texts(root.at("references"));
     for (size_t i = 0; i < baseline.references.size(); ++i)
         if (baseline.references[i] != "world" && baseline.references[i] != "screen")
             root.at("references").at(i).fail("must be \"world\" or \"screen\"");

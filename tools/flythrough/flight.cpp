@@ -24,6 +24,7 @@ using app::Complaint;
 
 namespace {
 
+constexpr uint32_t kMeasure = 2;  // counts changes to what is measured, so that parts of older programs are not taken up
 constexpr uint32_t kStillWarmUp = 32, kStillFrames = 32;
 
 // Values as they are, not encoded: what a number view shows.
@@ -49,7 +50,7 @@ evaluate::Candidate filtered(const evaluate::Candidate& candidate, Filter filter
     constexpr float kHistory = 0.9f;
     evaluate::Candidate result = candidate;
     if (filter == Filter::raw)
-        for (const char* blur : {"denoise", "blur"}) result.values.set(blur, 0.0f);
+        for (const char* blur : {"denoise", "blur", "filter"}) result.values.set(blur, 0.0f);
     // A history that was asked for by name stays.
     const bool asked = std::any_of(candidate.settings.begin(), candidate.settings.end(), [](const std::string& s) { return s.starts_with("temporal="); });
     if (filter != Filter::temporal) result.values.set("temporal", 0.0f);
@@ -140,7 +141,7 @@ void Flight::trace() {
 std::string Flight::keyOf(const evaluate::Candidate& candidate, Filter filter) const {
     scene::Hash hash;
     const Script& script = m_stage.script();
-    hash.add(script.name).add(script.scene).add(m_falloff.text).add(m_settings.size.x).add(m_settings.size.y).add(m_settings.guard);
+    hash.add(kMeasure).add(script.name).add(script.scene).add(m_falloff.text).add(m_settings.size.x).add(m_settings.size.y).add(m_settings.guard);
     hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(std::string(candidate.info().id)).add(std::string(name(filter)));
     const evaluate::Candidate used = filtered(candidate, filter);
     for (const float value : used.values.values()) hash.add(value);
@@ -233,6 +234,7 @@ Part Flight::measure(const evaluate::Candidate& chosen, Filter filter) {
             row.difference = change.difference;
             row.referenceDifference = change.referenceDifference;
             row.flickerOfError = change.flickerOfError;
+            row.referenceFlicker = change.referenceFlicker;
         }
         part.frames.push_back(row);
         if (m_settings.pictures) app::writePng(pictureFile(folder, frame), grey(picture));

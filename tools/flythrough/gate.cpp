@@ -17,14 +17,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::vector<std::string> texts(const scene::JsonAt& at) {
-    std::vector<std::string> list;
-    at.expectArray();
-    for (size_t i = 0; i < at.size(); ++i) list.push_back(at.at(i).text());
-    if (list.empty()) at.fail("must name at least one");
-    return list;
-}
-
 std::map<CalmKey, CalmRow> measureRows(const Calm& calm, const Options& options) {
     Settings settings;
     settings.size = calm.size;
@@ -65,8 +57,8 @@ Calm readCalm(const fs::path& file) {
     calm.rays = uint32_t(root.at("rays").whole(32, 65536));
     calm.relative = root.at("relative").number(0.0, 10.0);
     calm.absolute = root.at("absolute").number(0.0, 1.0);
-    calm.flythroughs = texts(root.at("flythroughs"));
-    calm.filters = texts(root.at("filters"));
+    calm.flythroughs = scene::texts(root.at("flythroughs"));
+    calm.filters = scene::texts(root.at("filters"));
     const scene::JsonAt rows = root.at("rows").expectArray();
     for (size_t i = 0; i < rows.size(); ++i) {
         const scene::JsonAt at = rows.at(i);

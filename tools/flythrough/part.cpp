@@ -35,7 +35,7 @@ std::string partText(const Part& part) {
               {"first", part.first}, {"end", part.end}, {"pictures", part.pictures}};
     json["frames"] = Json::array();
     for (const FrameRow& r : part.frames)
-        json["frames"].push_back({r.frame, r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.flickerOfError});
+        json["frames"].push_back({r.frame, r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.flickerOfError, r.referenceFlicker});
     json["events"] = Json::array();
     for (const EventRow& r : part.events) json["events"].push_back({r.frame, r.pixels, r.t90, r.ghost});
     if (part.still) json["static"] = {part.still->mean, part.still->p99};
@@ -64,7 +64,7 @@ std::optional<Part> readPart(const std::filesystem::path& file) {
         part.end = json.at("end");
         part.pictures = json.at("pictures");
         for (const Json& r : json.at("frames"))
-            part.frames.push_back({r.at(0), r.at(1), r.at(2), r.at(3), r.at(4), r.at(5), r.at(6), r.at(7), r.at(8)});
+            part.frames.push_back({r.at(0), r.at(1), r.at(2), r.at(3), r.at(4), r.at(5), r.at(6), r.at(7), r.at(8), r.at(9)});
         for (const Json& r : json.at("events")) part.events.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
         if (json.contains("static")) part.still = StaticRow{json["static"].at(0), json["static"].at(1)};
         for (const Json& r : json.at("passes")) part.passes.push_back({r.at(0), r.at(1), r.at(2)});
@@ -108,11 +108,11 @@ constexpr const char* kHead = "flythrough,method,preset,settings,filter";
 }  // namespace
 
 std::string framesCsv(const std::vector<Part>& parts) {
-    std::string text = fmt::format("{},frame,seconds,eA,bias,rmse,share,difference,reference_difference,excess_flicker,flicker_of_error\n", kHead);
+    std::string text = fmt::format("{},frame,seconds,eA,bias,rmse,share,difference,reference_difference,excess_flicker,flicker_of_error,reference_flicker\n", kHead);
     for (const Part& part : parts)
         for (const FrameRow& r : part.frames)
-            text += fmt::format("{},{},{:.6g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", head(part), r.frame, r.time, r.eA, r.bias, r.rmse,
-                                r.share, r.difference, r.referenceDifference, r.difference - r.referenceDifference, r.flickerOfError);
+            text += fmt::format("{},{},{:.6g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", head(part), r.frame, r.time, r.eA, r.bias, r.rmse,
+                                r.share, r.difference, r.referenceDifference, r.difference - r.referenceDifference, r.flickerOfError, r.referenceFlicker);
     return text;
 }
 

@@ -15,7 +15,7 @@ struct FrameRow {
     // Of visibility against the world reference, over pixels that are not sky.
     float eA = 0.0f, bias = 0.0f, rmse = 0.0f;
     // From the frame before along motion vectors (truth/stability.h); `share` of the pixels could be followed. Zero at the first.
-    float share = 0.0f, difference = 0.0f, referenceDifference = 0.0f, flickerOfError = 0.0f;
+    float share = 0.0f, difference = 0.0f, referenceDifference = 0.0f, flickerOfError = 0.0f, referenceFlicker = 0.0f;
 };
 
 struct EventRow {

@@ -10,6 +10,7 @@
 
 #include "app/complaint.h"
 #include "app/files.h"
+#include "app/page.h"
 #include "app/progress.h"
 #include "page.h"
 
@@ -29,30 +30,70 @@ Summary summarize(const Part& part) {
         s.difference += row.difference;
         s.excess += row.difference - row.referenceDifference;
         s.flickerOfError += row.flickerOfError;
+        s.referenceFlicker += row.referenceFlicker;
         ++steps;
     }
     const double frames = std::max<double>(1.0, double(part.frames.size()));
     s.eA /= frames, s.bias /= frames;
-    if (steps > 0.0) s.difference /= steps, s.excess /= steps, s.flickerOfError /= steps;
+    if (steps > 0.0) s.difference /= steps, s.excess /= steps, s.flickerOfError /= steps, s.referenceFlicker /= steps;
     if (part.still) s.noiseMean = part.still->mean, s.noiseP99 = part.still->p99;
     for (const EventRow& row : part.events) s.t90 = std::max(s.t90, row.t90), s.ghost += row.ghost;
     for (const PassRow& row : part.passes) s.milliseconds += row.median;
     return s;
 }
 
+namespace {
+
+std::string bareKey(const Part& part) { return part.flythrough + "/" + part.label(); }
+
+// F_e of the raw pictures, which the filters are held against.
+std::map<std::string, double> rawFlicker(const std::vector<Part>& parts) {
+    std::map<std::string, double> result;
+    for (const Part& part : parts)
+        if (part.filter == "raw") result[bareKey(part)] = summarize(part).flickerOfError;
+    return result;
+}
+
+std::string ratio(const std::map<std::string, double>& bare, const Part& part, const Summary& s, const char* none) {
+    const auto found = bare.find(bareKey(part));
+    return found == bare.end() || found->second <= 0.0 ? none : fmt::format("{:.2f}", s.flickerOfError / found->second);
+}
+
+}  // namespace
+
 std::string table(const std::vector<Part>& parts) {
     size_t width = 6;
     for (const Part& part : parts) width = std::max(width, part.label().size());
     std::string text, flythrough;
+    const std::map<std::string, double> bare = rawFlicker(parts);
     for (const Part& part : parts) {
         if (part.flythrough != flythrough) {
             flythrough = part.flythrough;
-            text += fmt::format("{}, {} x {} px, {}, frames {} to {}, {} rays\n  {:<{}}  filter        eA     bias      D_A   excess      F_e    noise    p99  T90   ghost       ms\n",
-                                flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, "method", width);
+            text += fmt::format("{}, {} x {} px, {}, frames {} to {}, {} rays, F_R {:.4f}\n  {:<{}}  filter        eA     bias      D_A   excess      F_e   of raw    noise    p99  T90   ghost       ms\n",
+                                flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, summarize(part).referenceFlicker, "method", width);
         }
         const Summary s = summarize(part);
-        text += fmt::format("  {:<{}}  {:<8}  {:.4f}  {:+.4f}   {:.4f}  {:+.4f}   {:.4f}  {:.5f}  {:.4f}  {:>3}  {:.4f}  {:7.2f}\n", part.label(), width, part.filter, s.eA,
-                            s.bias, s.difference, s.excess, s.flickerOfError, s.noiseMean, s.noiseP99, part.events.empty() ? "-" : std::to_string(s.t90), s.ghost,
+        text += fmt::format("  {:<{}}  {:<8}  {:.4f}  {:+.4f}   {:.4f}  {:+.4f}   {:.4f}   {:>6}  {:.5f}  {:.4f}  {:>3}  {:.4f}  {:7.2f}\n", part.label(), width, part.filter, s.eA,
+                            s.bias, s.difference, s.excess, s.flickerOfError, ratio(bare, part, s, "-"), s.noiseMean, s.noiseP99, part.events.empty() ? "-" : std::to_string(s.t90), s.ghost,
+                            s.milliseconds);
+    }
+    return text;
+}
+
+std::string markdown(const std::vector<Part>& parts) {
+    std::string text, flythrough;
+    const std::map<std::string, double> bare = rawFlicker(parts);
+    for (const Part& part : parts) {
+        const Summary s = summarize(part);
+        if (part.flythrough != flythrough) {
+            text += fmt::format("{}**{}**, {} x {} px, {}, frames {} to {}, {} rays; the reference's own F_R is {:.4f}.\n\n"
+                                "| method | filter | eA | bias | D_A | excess | F_e | of raw | noise | T90 | ghost | ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+                                text.empty() ? "" : "\n", part.flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, s.referenceFlicker);
+            flythrough = part.flythrough;
+        }
+        const bool lag = !part.events.empty();
+        text += fmt::format("| {} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.4f} | {} | {:.5f} | {} | {} | {:.2f} |\n", part.label(), part.filter, s.eA, s.bias, s.difference,
+                            s.excess, s.flickerOfError, ratio(bare, part, s, ""), s.noiseMean, lag ? std::to_string(s.t90) : "", lag ? fmt::format("{:.3f}", s.ghost) : "",
                             s.milliseconds);
     }
     return text;
@@ -65,7 +106,7 @@ Json summaryJson(const Part& part) {
     Json json{{"name", part.name()}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset}, {"settings", part.settings},
               {"label", part.label()}, {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width}, {"height", part.height},
               {"rays", part.rays}, {"pictures", part.pictures}, {"eA", s.eA}, {"bias", s.bias}, {"difference", s.difference}, {"excessFlicker", s.excess},
-              {"flickerOfError", s.flickerOfError}, {"noiseMean", s.noiseMean}, {"noiseP99", s.noiseP99}, {"milliseconds", s.milliseconds},
+              {"flickerOfError", s.flickerOfError}, {"referenceFlicker", s.referenceFlicker}, {"noiseMean", s.noiseMean}, {"noiseP99", s.noiseP99}, {"milliseconds", s.milliseconds},
               {"worstFrame", s.worst}};
     if (!part.events.empty()) json["t90"] = s.t90, json["ghost"] = s.ghost;
     json["passes"] = Json::array();
@@ -77,11 +118,6 @@ Json summaryJson(const Part& part) {
     json["events"] = Json::array();
     for (const EventRow& r : part.events) json["events"].push_back({{"frame", r.frame}, {"pixels", r.pixels}, {"t90", r.t90}, {"ghost", r.ghost}});
     return json;
-}
-
-void put(std::string& page, const std::string& mark, const std::string& content) {
-    const size_t at = page.find(mark);
-    if (at != std::string::npos) page.replace(at, mark.size(), content);
 }
 
 // Words for a shell.
@@ -120,13 +156,8 @@ void writeReport(const std::vector<Part>& parts, const std::string& device, cons
     Json json{{"device", device}, {"parts", Json::array()}};
     for (const Part& part : parts) json["parts"].push_back(summaryJson(part));
     app::writeFile(out / "report.json", json.dump(1) + "\n");
-    std::string data = json.dump();
-    for (size_t at = 0; (at = data.find('<', at)) != std::string::npos;) data.replace(at, 1, "\\u003c");  // no tag ends the script
-    std::string page = kPageHtml;
-    put(page, "/*STYLE*/", kPageCss);
-    put(page, "/*SCRIPT*/", kPageJs);
-    put(page, "/*DATA*/", data);
-    app::writeFile(out / "report.html", page);
+    app::writeFile(out / "report.md", markdown(parts));
+    app::writeFile(out / "report.html", app::page(kPageHtml, kPageCss, kPageJs, json.dump()));
 }
 
 void writeVideos(const std::vector<Part>& parts, const fs::path& out) {

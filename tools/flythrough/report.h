@@ -9,7 +9,7 @@ namespace obscura::flythrough {
 struct Summary {
     double eA = 0.0, bias = 0.0;                  // mean over frames
     double difference = 0.0, excess = 0.0;        // mean D_A, mean F
-    double flickerOfError = 0.0;                  // mean F_e
+    double flickerOfError = 0.0, referenceFlicker = 0.0;  // mean F_e, mean F_R
     double noiseMean = 0.0, noiseP99 = 0.0;       // static
     uint32_t t90 = 0;                             // worst event
     double ghost = 0.0;                           // summed over events
@@ -19,7 +19,8 @@ struct Summary {
 Summary summarize(const Part& part);
 
 std::string table(const std::vector<Part>& parts);                 // for a terminal
-// The four CSVs, report.json and report.html.
+std::string markdown(const std::vector<Part>& parts);              // the same for a text: a table a flythrough, a row a method and filter
+// The four CSVs, report.json, report.md and report.html.
 void writeReport(const std::vector<Part>& parts, const std::string& device, const std::filesystem::path& out);
 // NAME.mp4 of every part with pictures and FLYTHROUGH.side-by-side.mp4; one line on stderr, no failure, where ffmpeg is not.
 void writeVideos(const std::vector<Part>& parts, const std::filesystem::path& out);

@@ -75,15 +75,20 @@ void main() {
     bool known = constants.valid != 0u && weights > 0.01;
     float before = known ? sum / (weights * 16383.0) : now, frames = known ? gathered / weights : 0.0;
 
+    // Noise is how far every other pixel around lies off a slope: next to each other, blurred ones differ less than from frame to frame,
+    // and a slope is the edge of a shadow, which may move.
     float mean = 0.0, square = 0.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
+    vec2 slope = vec2(0.0);
+    for (int y = -2; y <= 2; y += 2)
+        for (int x = -2; x <= 2; x += 2) {
             float v = imageLoad(present, clamp(p + ivec2(x, y), ivec2(0), last)).x;
             mean += v;
             square += v * v;
+            slope += v * vec2(x, y);
         }
     mean /= 9.0;
-    float spread = constants.clip * sqrt(max(square / 9.0 - mean * mean, 0.0)) + constants.clipFloor;
+    slope /= 12.0;  // from one of them to the next
+    float spread = constants.clip * sqrt(max(square / 9.0 - mean * mean - dot(slope, slope) * (2.0 / 3.0), 0.0)) + constants.clipFloor;
     float drawn = constants.clip > 0.0 ? clamp(before, mean - spread, mean + spread) : before;
     frames *= clamp(1.0 - abs(drawn - before) / max(spread, 1e-6), 0.0, 1.0);
 

@@ -3,7 +3,7 @@ const data = JSON.parse(document.getElementById('data').textContent);
 const parts = data.parts, $ = id => document.getElementById(id);
 const kColours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#b58900', '#56b4e9', '#7a4fbf', '#b3363e', '#4f7a1e', '#6b7280'];
 const kColumns = [['flythrough', 'flythrough'], ['label', 'method'], ['filter', 'filter'], ['eA', 'eA', 4], ['bias', 'bias', 4], ['difference', 'D_A', 4], ['excessFlicker', 'excess', 4],
-  ['flickerOfError', 'F_e', 4], ['noiseMean', 'noise', 5], ['noiseP99', 'noise p99', 4], ['t90', 'T90', 0], ['ghost', 'ghost', 3], ['milliseconds', 'ms', 2]];
+  ['flickerOfError', 'F_e', 4], ['referenceFlicker', 'F_R', 4], ['noiseMean', 'noise', 5], ['noiseP99', 'noise p99', 4], ['t90', 'T90', 0], ['ghost', 'ghost', 3], ['milliseconds', 'ms', 2]];
 const kMeasures = [['flickerOfError', 'flicker of error'], ['eA', 'mean absolute error'], ['excessFlicker', 'excess flicker'], ['difference', 'change along motion']];
 const kDash = { raw: '1 3', spatial: '5 3', temporal: '' };
 const make = (tag, text, parent) => { const e = document.createElement(tag); if (text !== undefined) e.textContent = text; if (parent) parent.append(e); return e; };
