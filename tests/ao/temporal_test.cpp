@@ -58,6 +58,14 @@ TEST_F(TemporalTest, takesNoiseAndLeavesTheMean) {
     EXPECT_LT(deviation, 0.05 / 3.0);
 }
 
+// The edge of a shadow that moved is no noise to hide in: the past of where it lay is drawn in.
+TEST_F(TemporalTest, aSlopeIsNoNoise) {
+    const auto shadow = [](float from) { return [=](int x, int) { return from + float(x) / 64.0f; }; };
+    for (int i = 0; i < 10; ++i) run({.visibility = shadow(0.3f)}, {});
+    const Plane last = run({.visibility = shadow(0.1f)}, {});
+    for (uint32_t x = 3; x < kWidth - 3; ++x) ASSERT_NEAR(at(last, x, 12), 0.1f + float(x) / 64.0f, 0.012f) << x;
+}
+
 // A slow average of 16-bit floats would stand still away from its goal.
 TEST_F(TemporalTest, reachesTheValueItIsFed) {
     run({.visibility = flat(0.5f)}, papers(0.97f));

@@ -72,6 +72,20 @@ TEST(Stability, whatSticksToTheWorldIsNoFlicker) {
     EXPECT_GT(change(inPlace, painted(now), painted(before), {painted(before), {}}, {painted(before), {}}).difference, 0.02f);
 }
 
+// Grooves narrower than a pixel come and go with its middle: they are not followed as the wall around them.
+TEST(Stability, aGrooveIsAnotherSurface) {
+    const CapturedFrame before = Scene{}.frame();
+    const std::vector<glm::vec2> still(before.depth.size(), glm::vec2(0));
+    const float pixel = 2.0f / before.view().pixelsPerMetre;  // as wide as one is on the wall
+    const auto share = [&](float deep) {
+        CapturedFrame now = before;
+        for (size_t i = 0; i < now.depth.size(); i += 2) now.depth[i] += deep * pixel;
+        return correspond(now, before, still).share();
+    };
+    EXPECT_EQ(share(0.04f), 1.0f);
+    EXPECT_NEAR(share(0.07f), 0.5f, 0.01f);
+}
+
 TEST(Stability, noiseOfKnownDeviationIsMeasured) {
     const CapturedFrame frame = Scene{}.frame();
     const Correspondence way = correspond(frame, frame, std::vector<glm::vec2>(frame.depth.size(), glm::vec2(0)));

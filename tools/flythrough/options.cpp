@@ -57,7 +57,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(
-        "Writes to --out: frames/ (PNG), one MP4 a method and one side by side, frames.csv, events.csv, static.csv, passes.csv, report.json and\n"
+        "Writes to --out: frames/ (PNG), one MP4 a method and one side by side, frames.csv, events.csv, static.csv, passes.csv, report.json, report.md and\n"
         "report.html. A run that was interrupted goes on where it stopped.\n\n"
         "Examples:\n"
         "  obscura-flythrough --flythrough teleport --method hbao,horizon_split --out out/teleport\n"
