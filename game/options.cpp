@@ -80,7 +80,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)")
         ->group(kPicture);
     cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kPicture);
-    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signed-difference, or pass:NAME")
+    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signed-difference, history, rejected, or pass:NAME")
         ->group(kPicture)->capture_default_str();
     cli.add_option("--compare", compare, "METHOD[:PRESET][,PARAMETER=VALUE...]: a second setting B on the same frames, shown right of a divider")->group(kPicture);
     cli.add_option("--split", options.split, "Where the divider stands, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
