@@ -26,12 +26,14 @@ graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible, const char* pass
 }
 
 Status Denoise::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Denoise& out) {
-    return gpu::Program::compute(device, shaders, "ao/common/denoise.comp", {}, out.m_blur) == gpu::Status::ok ? Status::ok : Status::shaderError;
+    const bool made = gpu::Program::compute(device, shaders, "ao/common/denoise.comp", {{0, 0}}, out.m_blur) == gpu::Status::ok &&
+                      gpu::Program::compute(device, shaders, "ao/common/denoise.comp", {{0, 1}}, out.m_strict) == gpu::Status::ok;
+    return made ? Status::ok : Status::shaderError;
 }
 
 graph::ImageId Denoise::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const char* passName) {
     const graph::ImageId result = graph.image(passName, graph.desc(visibility));
-    graph.pass(passName, m_blur).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(visibility).write(result)
+    graph.pass(passName, inputs.view.temporal ? m_strict : m_blur).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(visibility).write(result)
         .dispatch(inputs.view.visible.x, inputs.view.visible.y);
     return result;
 }

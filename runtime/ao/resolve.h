@@ -18,7 +18,7 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const char* passName);
 
 private:
-    gpu::Program m_blur;
+    gpu::Program m_blur, m_strict;
 };
 
 // Interleaving [Timonen 2013, sec. 10], for methods whose work splits by direction or sample: a pixel does its share of it, 1/n^2 (see

@@ -13,6 +13,7 @@ layout(set = 0, binding = 4, r16f) uniform writeonly image2D result;
 
 const float kPlane = 200.0;  // per unit of plane distance over depth: 40 per metre at 5 m, at any world scale
 const float kStrictPlane = 1600.0;  // where a history takes noise out; normals then count with their eighth power
+layout(constant_id = 0) const bool kStrict = false;
 
 void main() {
     View view = viewBlock;  // a copy, so that the loop holds it in registers
@@ -26,8 +27,7 @@ void main() {
     }
     vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
     vec3 here = eyePosition(view, vec2(p + guard) + 0.5, z);
-    bool strict = view.temporal != 0u;
-    float sharpness = (strict ? kStrictPlane : kPlane) / z;
+    float sharpness = (kStrict ? kStrictPlane : kPlane) / z;
     const float kernel[3] = {6.0, 4.0, 1.0};
     float sum = 0.0, weights = 0.0;
     for (int y = -2; y <= 2; ++y) {
@@ -38,8 +38,9 @@ void main() {
             float zq = imageLoad(depth, q + guard).x;
             vec3 there = eyePosition(view, vec2(q + guard) + 0.5, zq);
             float plane = abs(dot(there - here, n));
-            float facing = max(0.0, dot(n, unpackNormal(imageLoad(normals, q + guard).x))), fourth = facing * facing * facing * facing;
-            float w = kernel[abs(x)] * kernel[abs(y)] * (strict ? fourth * fourth : facing) / (1.0 + sharpness * plane);
+            float facing = max(0.0, dot(n, unpackNormal(imageLoad(normals, q + guard).x)));
+            if (kStrict) facing *= facing, facing *= facing, facing *= facing;
+            float w = kernel[abs(x)] * kernel[abs(y)] * facing / (1.0 + sharpness * plane);
             w = inside ? w : 0.0;
             sum += w * imageLoad(source, q).x;
             weights += w;
