@@ -107,6 +107,7 @@ int runHeadless(const Options& options) {
             frame.skipMasked = options.skipMasked;
             frame.voxels = options.voxels;
             frame.sampleStep = measures ? measuredStep(options.size) : 0;
+            frame.slice = options.slice;
             const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
             if (i == 0) expectPass(options, graph);
             if (measures)

@@ -24,6 +24,16 @@ glm::vec3 vectorOf(const char* option, const std::string& text) {
     return {list[0], list[1], list[2]};
 }
 
+render::VoxelSlice sliceOf(const std::string& text) {
+    render::VoxelSlice slice;
+    slice.axis = text[0] - 'x';
+    const std::vector<float> at = text.size() > 2 && text[1] == ':' ? app::numbers(text.substr(2), ',') : std::vector<float>();
+    if (slice.axis < 0 || slice.axis > 2 || (text.size() > 1 && at.size() != 1))
+        throw Complaint(fmt::format("--voxel-slice {}: write x, y or z, or an axis and metres: y:1.2", text));
+    if (!at.empty()) slice.at = at[0];
+    return slice;
+}
+
 CameraChoice cameraOf(const std::string& text) {
     CameraChoice camera;
     if (text.starts_with("scene:")) {
@@ -65,7 +75,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
                "\nExit codes: 0 done, 1 the machine could not do it, 2 bad input, 3 the validation layer complained\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::string method, preset, offscreen, falloff, compare, view = "final", size, camera, path, eye, target;
+    std::string method, preset, offscreen, falloff, compare, view = "final", slice, size, camera, path, eye, target;
     std::vector<std::string> assignments;
     bool headless = false, listMethods = false, listScenes = false, listDevices = false, flythrough = false, noVsync = false;
     uint32_t frames = 1, switchTest = 0;
@@ -80,7 +90,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)")
         ->group(kPicture);
     cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kPicture);
-    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signed-difference, history, rejected, or pass:NAME")
+    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, voxels, voxel-slice, difference, signed-difference, history, rejected, or pass:NAME")
         ->group(kPicture)->capture_default_str();
     cli.add_option("--compare", compare, "METHOD[:PRESET][,PARAMETER=VALUE...]: a second setting B on the same frames, shown right of a divider")->group(kPicture);
     cli.add_option("--split", options.split, "Where the divider stands, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
@@ -94,6 +104,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")->group(kPicture);
 
     app::addVoxelArguments(cli, options.voxels, kPicture);
+    cli.add_option("--voxel-slice", slice, "AXIS or AXIS:METRES: the layer that --view voxel-slice shows, x, y or z; where the camera is unless said")->group(kPicture);
 
     const char* kCamera = "Camera";
     auto* cameraOption = cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")->group(kCamera);
@@ -151,6 +162,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*switchOption) options.switchTest = switchTest;
     options.vsync = !noVsync;
     options.voxels.cache = scene::cacheFolder();
+    if (!slice.empty()) options.slice = sliceOf(slice);
     if (flythrough) options.camera.kind = CameraChoice::Kind::flythrough;
     if (*cameraOption) options.camera = cameraOf(camera);
     if (*pathOption) {

@@ -52,6 +52,7 @@ struct Options {
     bool skipMasked = false;
     bool measure = false;
     render::Voxelization voxels;
+    render::VoxelSlice slice;
     CameraChoice camera;
     Choice choice;
     std::optional<Choice> compare;       // the second side; its falloff is not used

@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include "app/voxel_arguments.h"
+#include "report.h"
 
 namespace obscura::game {
 
@@ -108,10 +109,26 @@ void viewPanel(Session& session) {
     tip("How far buffers reach beyond the picture, as a fraction of each side: occluders just outside still count. Costs their pixels.");
 }
 
-void voxelPanel(render::Voxelization& voxels) {
+bool wantsVoxels(const Session& session) {
+    return ((ao::needs(session.choice.values()) | (session.comparing ? ao::needs(session.other.values()) : 0)) & ao::kVolume) || render::isVoxels(session.view);
+}
+
+void voxelPanel(Session& session) {
+    render::Voxelization& voxels = session.voxels;
+    if (session.view == render::View::voxelSlice) {
+        render::VoxelSlice& slice = session.slice;
+        ImGui::Combo("slice across", &slice.axis, "x\000y\000z\0");
+        bool atEye = !slice.at;
+        float at = slice.at.value_or(session.camera().eye[slice.axis]);
+        if (ImGui::SliderFloat("slice at [m]", &at, session.stage.bounds.min[slice.axis], session.stage.bounds.max[slice.axis], "%.2f")) slice.at = at;
+        else if (ImGui::Checkbox("where the camera is", &atEye)) slice.at = atEye ? std::nullopt : std::optional(at);
+    }
     int voxelizer = int(voxels.voxelizer), shell = int(voxels.shell), side = std::countr_zero(voxels.cells) - 6;
     if (ImGui::Combo("voxelizer", &voxelizer, app::kVoxelizerNames, int(std::size(app::kVoxelizerNames)))) voxels.voxelizer = render::Voxelizer(voxelizer);
     tip("openvdb: what rests is made once and kept, objects are redone as they move, on a thread of its own. gpu: everything, every frame.");
+    int structure = int(voxels.structure);
+    if (ImGui::Combo("voxel structure", &structure, app::kStructureNames, int(std::size(app::kStructureNames)))) voxels.structure = ao::VolumeStructure(structure);
+    tip("dense: a window of bits around the camera. nanovdb: all of the world as a sparse grid, made by OpenVDB; slower to trace.");
     if (ImGui::Combo("voxel shell", &shell, app::kShellNames, int(std::size(app::kShellNames)))) voxels.shell = voxel::Shell(shell);
     tip("conservative: each cell that a surface touches. thin: as few as stop a path over cell faces; short rays miss some.");
     if (ImGui::Combo("voxel window", &side, "64\000128\000256\000512\0")) voxels.cells = 64u << side;
@@ -158,14 +175,8 @@ void factsPanel(Session& session) {
     ImGui::TextUnformatted(fmt::format("memory {:.1f} MiB: frame {:.1f}, textures {:.1f}, geometry {:.1f}",
                                        double(session.engine.device().memoryUse()) * mebi, double(session.engine.graph().poolBytes()) * mebi,
                                        double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi).c_str());
-    if (const voxel::Voxels* voxels = session.engine.renderer().voxels()) {
-        const voxel::Statistics v = voxels->statistics();
-        ImGui::TextUnformatted(fmt::format("voxels: {}, {:.3g} M cells at rest in {:.1f} MiB ({} in {:.0f} ms)\n{} objects, {} redone; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n"
-                                           "window {:.1f} MiB, {:.1f} KiB sent", v.progress < 1.0f ? fmt::format("building, {:.0f} %", 100.0f * v.progress) : "ready",
-                                           double(v.resting.cells) * 1e-6, double(v.resting.bytes) * mebi, v.resting.fromCache ? "read" : "made", v.resting.milliseconds,
-                                           v.objects, v.redone, v.workerMilliseconds, v.waitMilliseconds, v.worstWait, v.late, double(v.windowBytes) * mebi,
-                                           double(v.changedBytes) / 1024.0).c_str());
-    }
+    if (const voxel::Voxels* voxels = session.engine.renderer().voxels(); voxels && wantsVoxels(session))
+        ImGui::TextUnformatted(voxelFacts(*voxels, session.statistics).c_str());
     ImGui::TextUnformatted(fmt::format("eye {:.2f} {:.2f} {:.2f}", camera.eye.x, camera.eye.y, camera.eye.z).c_str());
     ImGui::TextUnformatted(session.engine.device().caps().deviceName.c_str());
     ImGui::PopTextWrapPos();
@@ -222,7 +233,7 @@ void drawMain(Session& session) {
         falloffPanel(session.choice.falloff);
         ImGui::Separator();
         viewPanel(session);
-        if (session.choice.info().needs & ao::kVolume) voxelPanel(session.voxels);
+        if (wantsVoxels(session)) voxelPanel(session);
         ImGui::Separator();
         timePanel(session);
         ImGui::Separator();

@@ -62,6 +62,27 @@ std::string settingsText(const ao::Values& values) {
 
 }  // namespace
 
+std::string voxelFacts(const voxel::Voxels& voxels, const app::Statistics& times) {
+    const voxel::Statistics v = voxels.statistics();
+    const double mebi = 1.0 / (1024.0 * 1024.0);
+    const auto spent = [&](std::string_view ending) {
+        double sum = 0.0;
+        bool any = false;
+        for (const app::Series& pass : times.passes())
+            if (pass.name.ends_with(ending)) sum += pass.median(), any = true;
+        return any ? fmt::format("{:.2f} ms", sum) : std::string("none");
+    };
+    const std::string window = voxels.options().nano ? fmt::format("NanoVDB grid of {:.2f} MiB on the GPU", double(v.windowBytes) * mebi) : fmt::format("window of {} cells a side, {:.1f} MiB on the GPU", voxels.options().cells, double(v.windowBytes) * mebi);
+    if (!voxels.options().bits)
+        return fmt::format("voxels: {}, made there every frame\nclear {}, rasterise {}, trace {}", window, spent("voxels.clear"), spent("voxels.rasterise"), spent(".trace"));
+    const std::string rest = v.progress < 1.0f ? fmt::format("building, {:.0f} %", 100.0f * v.progress)
+                                               : fmt::format("{} cells at rest in {:.2f} MiB of OpenVDB, {} in {:.0f} ms", v.resting.cells, double(v.resting.bytes) * mebi,
+                                                             v.resting.fromCache ? "read" : "made", v.resting.milliseconds);
+    return fmt::format("voxels: {}\n{} objects of {} cells in {:.2f} MiB, {} redone; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n{}, {:.1f} KiB sent last\n"
+                       "upload {}, trace {}", rest, v.objects, v.objectCells, double(v.objectBytes) * mebi, v.redone, v.workerMilliseconds, v.waitMilliseconds, v.worstWait,
+                       v.late, window, double(v.changedBytes) / 1024.0, spent("voxels.upload"), spent(".trace"));
+}
+
 std::string Report::table() const {
     size_t width = 20;
     for (const app::Series& pass : statistics.passes()) width = std::max(width, pass.name.size());
@@ -73,6 +94,7 @@ std::string Report::table() const {
     line(statistics.gpu(), "= gpu frame");
     line(statistics.cpu(), "cpu, recording");
     line(statistics.frame(), "frame to frame");
+    if (const voxel::Voxels* voxels = engine.renderer().voxels()) text += voxelFacts(*voxels, statistics) + "\n";
     return text;
 }
 

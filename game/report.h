@@ -17,6 +17,9 @@ struct ReportPicture {
     app::Picture final, visibility;
 };
 
+// What the voxels are, take and cost, in lines; times are medians of the passes that fill and trace the volume.
+std::string voxelFacts(const voxel::Voxels& voxels, const app::Statistics& times);
+
 struct Report {
     const Options& options;
     Engine& engine;

@@ -23,7 +23,7 @@ constexpr float kDividerStep = 0.02f;    // of the width
 Session::Session(const Options& given, Stage& stage_, Engine& engine_)
     : options(given), stage(stage_), engine(engine_), choice(given.choice), comparing(given.compare.has_value()), split(given.split),
       differenceRange(given.differenceRange), view(given.view), passView(given.passView), time(given.time),
-      exposure(given.exposure * stage_.info.exposure), guard(given.guard), voxels(given.voxels), m_lastMethod(given.choice.current()) {
+      exposure(given.exposure * stage_.info.exposure), guard(given.guard), voxels(given.voxels), slice(given.slice), m_lastMethod(given.choice.current()) {
     if (given.measure) act(Action::measure, 0);
     if (given.compare) other = *given.compare;
     else if (other.current() == choice.current()) other.selectNext(1);
@@ -283,6 +283,7 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.skipMasked = options.skipMasked;
     frame.sampleStep = measures ? measuredStep(size) : 0;
     frame.voxels = voxels;
+    frame.slice = slice;
     frame.voxels.exact = false;  // a frame behind, and no hitch
     cut = false;
     return frame;

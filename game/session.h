@@ -35,6 +35,7 @@ public:
     float pace = 1.0f;       // world seconds a second
     float exposure = 1.0f, guard = 0.1f;
     render::Voxelization voxels;
+    render::VoxelSlice slice;
     bool paused = false;
     bool following = false;  // the camera moves by itself: flythrough, path or lens
     bool cut = true;         // the next frame's camera or time jumped

@@ -170,7 +170,7 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
     if (hasMotion) sources.motion = importView(graph, "motion", frame.motion, frame.size);
     if (frame.cut) context->library->reset();
     if (const Volume& v = frame.volume; v.buffer)
-        sources.volume = graph.import("volume bits", {v.buffer, v.offset, uint64_t(v.cells) * v.cells * v.cells / 8});
+        sources.volume = graph.import("volume bits", {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});
     const graph::ImageId visibility = context->library->add(graph, frame, sources, context->falloff, *context->values);
     if (!visibility) return output.status = Status::shaderError, output;
 

@@ -62,7 +62,7 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     if (m_last != &values.info()) reset();
     m_last = &values.info();
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
-    if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume)};
+    if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure};
     previousFromEye(frame.eyeFromWorld, m_hasLast ? m_eyeFromWorld : frame.eyeFromWorld, inputs.previousFromEye);
     std::memcpy(m_eyeFromWorld, frame.eyeFromWorld, sizeof(m_eyeFromWorld));
     m_hasLast = true;

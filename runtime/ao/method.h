@@ -15,10 +15,12 @@
 
 namespace obscura::ao {
 
-// Occupied cells of the world, where the frame brings them; laid out as shared/volume.h says.
+// Occupied cells of the world, where the frame brings them; laid out as shared/volume.h says. What traces them has a program for
+// either structure.
 struct VolumeInput {
     graph::BufferId bits;        // storage buffer
     graph::BufferId block;       // Volume as a uniform buffer
+    VolumeStructure structure = VolumeStructure::dense;
     explicit operator bool() const { return bool(bits); }
 };
 

@@ -24,6 +24,7 @@ constexpr float kFarthest = 1e18f;  // its square is a float
 
 Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out) {
     if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace) != gpu::Status::ok) return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_traceGrid) != gpu::Status::ok) return Status::shaderError;
     return Upsample::create(device, shaders, out.m_upsample);
 }
 
@@ -41,7 +42,7 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
     const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
                       std::min(blocking.reach, kFarthest), blocking.thickness};
-    graph.pass("offscreen.trace", m_trace).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
+    graph.pass("offscreen.trace", inputs.volume.structure == VolumeStructure::dense ? m_trace : m_traceGrid).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
         .read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
     return m_upsample.add(graph, inputs, {map, receivers}, {kScale, kWindow, kRange * inputs.falloff.reach}, "offscreen", visibility);
 }

@@ -26,7 +26,7 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const Blocking& blocking, const OffScreenSettings& settings);
 
 private:
-    gpu::Program m_trace;
+    gpu::Program m_trace, m_traceGrid;
     Upsample m_upsample;
     bool m_said = false;
 };

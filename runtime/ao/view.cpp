@@ -48,15 +48,16 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
 Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason) {
     const auto fail = [&](const char* why) { reason = why; return Status::invalid; };
     const uint32_t cells = volume.cells;
-    if (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0) return fail("Frame::volume.cells is no power of two from 8 to 1024");
+    const bool dense = volume.structure == VolumeStructure::dense;
+    if (dense && (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0)) return fail("Frame::volume.cells is no power of two from 8 to 1024");
     const float* m = volume.cellFromEye;
     for (int i = 0; i < 16; ++i)
         if (!std::isfinite(m[i])) return fail("Frame::volume.cellFromEye holds a value that is not finite");
     const float scale = std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
     if (!(scale > 0.0f)) return fail("Frame::volume.cellFromEye scales everything to nothing");
     for (int row = 0; row < 3; ++row) block.rows[row] = {m[row], m[4 + row], m[8 + row], m[12 + row]};
-    const uint32_t mask = cells - 1;
-    block.shift = {uint32_t(volume.origin[0]) & mask, uint32_t(volume.origin[1]) & mask, uint32_t(volume.origin[2]) & mask, cells};
+    const uint32_t mask = dense ? cells - 1 : ~0u;
+    block.shift = {uint32_t(volume.origin[0]) & mask, uint32_t(volume.origin[1]) & mask, uint32_t(volume.origin[2]) & mask, dense ? cells : 0};
     block.anchor = {float(volume.origin[0]) / scale, float(volume.origin[1]) / scale, float(volume.origin[2]) / scale, 1.0f / scale};
     return Status::ok;
 }

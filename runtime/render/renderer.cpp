@@ -221,7 +221,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
     ao::Sources sources{g.depth, g.geometric, g.motion};
     const uint32_t needs = ao::needs(*options.method) | (options.compare ? ao::needs(*options.compare) : 0);
-    if (needs & ao::kVolume) {
+    if ((needs & ao::kVolume) || isVoxels(options.view)) {
         const VoxelVolume::Scene scene{world, options.time, options.camera, impl.actors.drawables(), posed, !options.skipMasked};
         sources.volume = impl.voxels.add(graph, scene, options.voxels, aoFrame.volume);
     }
@@ -261,6 +261,8 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
             if (shown) out.color = shown;
         }
     }
+    if (isVoxels(options.view) && sources.volume)
+        out.color = impl.views.voxels(graph, sources.volume, aoFrame.volume, options.view == View::voxelSlice ? &options.slice : nullptr, options.camera.eye, view);
     if (isDifference(options.view) && out.sides[1])
         out.color = impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
     if (options.view == View::history || options.view == View::rejected) out.color = impl.views.addHistory(graph, options.view, view);

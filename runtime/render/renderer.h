@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +16,17 @@
 namespace obscura::render {
 
 enum class View : uint8_t {
-    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, difference, signedDifference,
+    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, voxels, voxelSlice, difference, signedDifference,
     history, rejected, pass
 };
 // "final", "visibility", ... and "pass:NAME" (what the graph's pass NAME wrote); false when unknown.
 bool parseView(const std::string& text, View& view, std::string& pass);
 const char* name(View view);
 inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
-                                  View::baseColor, View::roughness, View::metalness, View::emission, View::difference, View::signedDifference,
+                                  View::baseColor, View::roughness, View::metalness, View::emission, View::voxels, View::voxelSlice, View::difference, View::signedDifference,
                                   View::history, View::rejected};
+// Of the volume, which is then made whether a method needs it or not.
+constexpr bool isVoxels(View view) { return view == View::voxels || view == View::voxelSlice; }
 // Of two methods' visibility; where only one is run they show that one's.
 constexpr bool isDifference(View view) { return view == View::difference || view == View::signedDifference; }
 
@@ -35,6 +38,12 @@ struct Sun {
     glm::vec3 radiance{6.0f, 5.6f, 4.9f};      // linear, times pi over the horizon
     glm::vec3 sky{0.9f, 1.05f, 1.25f};         // ambient radiance from above
     glm::vec3 ground{0.45f, 0.40f, 0.34f};     // and from below
+};
+
+// Which layer of cells View::voxelSlice shows.
+struct VoxelSlice {
+    int axis = 1;             // that it stands across: x, y, z
+    std::optional<float> at;  // metres along it; none: where the camera is
 };
 
 struct FrameOptions {
@@ -53,6 +62,7 @@ struct FrameOptions {
     std::string passView;             // for View::pass
     uint32_t sampleStep = 0;          // > 0: Outputs::samples of every so many pixels
     Voxelization voxels;              // for methods that need a volume
+    VoxelSlice slice;
     Sun sun;
     float exposure = 1.0f;
     bool cut = false;                 // first frame after a jump: histories and motion are void

@@ -9,7 +9,7 @@ namespace obscura::render {
 namespace {
 
 constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion",
-                                  "base-color", "roughness", "metalness", "emission", "difference", "signed-difference", "history", "rejected", "pass"};
+                                  "base-color", "roughness", "metalness", "emission", "voxels", "voxel-slice", "difference", "signed-difference", "history", "rejected", "pass"};
 
 // How to show an image of which only the format is known.
 uint32_t modeOf(VkFormat format, const std::string& name) {
@@ -58,6 +58,8 @@ gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp", {}, out.m_split);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/difference.comp", {}, out.m_difference);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/samples.comp", {}, out.m_samples);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view.comp", {}, out.m_voxels);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view_nanovdb.comp", {}, out.m_grid);
     return status;
 }
 
@@ -125,6 +127,22 @@ graph::ImageId Views::samples(graph::Graph& graph, const Outputs& outputs, uint3
     graph.pass("samples", m_samples).read(outputs.sides[0]).read(outputs.sides[outputs.sides[1] ? 1 : 0]).read(outputs.linearDepth).read(outputs.normals)
         .read(outputs.motion).write(samples).constants(block).dispatch(block.count.x, block.count.y);
     return samples;
+}
+
+graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao::Volume& volume, const VoxelSlice* slice, const glm::vec3& eye, const shared::View& frame) {
+    shared::Volume block;
+    const char* reason = nullptr;
+    if (ao::volumeOf(volume, block, reason) != ao::Status::ok) return {};
+    struct { int32_t axis; float layer, shown; } constants{-1, 0.0f, float(volume.cells)};
+    if (slice) {
+        constants.axis = std::clamp(slice->axis, 0, 2);
+        const int axis = constants.axis;
+        constants.layer = volume.cellFromEye[12 + axis] + (slice->at ? (*slice->at - eye[axis]) / block.anchor.w : 0.0f);
+    }
+    const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
+    graph.pass("voxels.view", volume.structure == ao::VolumeStructure::dense ? m_voxels : m_grid).read(graph.upload("view", frame)).read(graph.upload("volume", block)).read(bits).write(picture).constants(constants)
+        .dispatch(frame.visible.x, frame.visible.y);
+    return picture;
 }
 
 graph::ImageId Views::addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame) {

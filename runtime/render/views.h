@@ -25,10 +25,12 @@ public:
     graph::ImageId difference(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float range, bool withSign);
     // Outputs::samples of what the rest of `outputs` holds.
     graph::ImageId samples(graph::Graph& graph, const Outputs& outputs, uint32_t step, const shared::View& frame);
+    // The volume as the camera sees its cells, or one layer of them as a map. Sizes as `frame` has them; `eye` in the world.
+    graph::ImageId voxels(graph::Graph& graph, graph::BufferId bits, const ao::Volume& volume, const VoxelSlice* slice, const glm::vec3& eye, const shared::View& frame);
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
-    gpu::Program m_float, m_uint, m_split, m_difference, m_samples;
+    gpu::Program m_float, m_uint, m_split, m_difference, m_samples, m_voxels, m_grid;
 };
 
 }  // namespace obscura::render

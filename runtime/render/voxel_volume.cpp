@@ -42,20 +42,49 @@ graph::BufferId VoxelVolume::upload(graph::Graph& graph, const voxel::Change& ch
     return bits;
 }
 
+// A grid is sent whole: where its nodes lie shifts with every leaf that comes or goes.
+graph::BufferId VoxelVolume::uploadGrid(graph::Graph& graph, const voxel::Change& change) {
+    const uint64_t bytes = change.grid.size() * sizeof(uint32_t);
+    if (bytes > m_bits.bytes()) {
+        VkPhysicalDeviceProperties properties;
+        graph.device().vk().GetPhysicalDeviceProperties(graph.device().physical(), &properties);
+        const uint64_t most = properties.limits.maxStorageBufferRange, roomy = std::min(most, bytes + bytes / 4);
+        m_bits = {};
+        if (bytes > most) {
+            graph.device().log(gpu::Severity::warning, "voxels: the NanoVDB grid is larger than this device's storage buffers; use larger cells");
+            return {};
+        }
+        if (gpu::Buffer::create(graph.device(), roomy, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "voxel grid", m_bits) != gpu::Status::ok)
+            return {};
+    }
+    if (!m_bits) return {};
+    const graph::BufferId grid = graph.import("voxel grid", m_bits, graph::Graph::Shared::written);
+    if (bytes == 0) return grid;
+    const graph::BufferId staged = graph.upload("new voxel grid", change.grid.data(), bytes);
+    graph.pass("voxels.upload").use(staged, graph::Access::transferRead).use(grid, graph::Access::transferWrite).record([staged, grid, bytes](const graph::PassContext& c) {
+        const graph::ExternalBuffer from = c.buffer(staged), to = c.buffer(grid);
+        const VkBufferCopy copy{from.offset, 0, bytes};
+        c.device.vk().CmdCopyBuffer(c.cmd, from.buffer, to.buffer, 1, &copy);
+    });
+    return grid;
+}
+
 graph::BufferId VoxelVolume::add(graph::Graph& graph, const Scene& scene, const Voxelization& how, ao::Volume& volume) {
     gpu::Device& device = graph.device();
+    const bool grid = how.structure == ao::VolumeStructure::nanovdb, onGpu = how.voxelizer == Voxelizer::gpu && !grid;
     const auto unlike = [&](auto Voxelization::* field) { return how.*field != m_how.*field; };
-    if (!m_voxels || unlike(&Voxelization::voxelizer) || unlike(&Voxelization::shell) || unlike(&Voxelization::cells) || unlike(&Voxelization::cellSize) ||
+    if (!m_voxels || unlike(&Voxelization::voxelizer) || unlike(&Voxelization::structure) || unlike(&Voxelization::shell) || unlike(&Voxelization::cells) || unlike(&Voxelization::cellSize) ||
         unlike(&Voxelization::cache) || scene.masked != m_masked) {
         m_voxels = std::make_unique<voxel::Voxels>(voxel::Options{
-            .cells = how.cells, .cellSize = double(how.cellSize), .masked = scene.masked, .shell = how.shell, .bits = how.voxelizer == Voxelizer::openvdb,
-            .cache = how.cache, .say = [&device](const std::string& line) { device.log(gpu::Severity::warning, line); }});
+            .cells = how.cells, .cellSize = double(how.cellSize), .masked = scene.masked, .shell = how.shell, .nano = grid, .bits = !onGpu,
+            .cache = how.cache, .progress = how.building, .say = [&device](const std::string& line) { device.log(gpu::Severity::warning, line); }});
         m_bits = {};
         m_how = how;
         m_masked = scene.masked;
     }
     const voxel::Change& change = m_voxels->update(scene.world, scene.time, scene.camera.eye, how.exact ? voxel::Voxels::Wait::exact : voxel::Voxels::Wait::latest);
     if (change.cells == 0) return {};
+    volume.structure = how.structure;
     volume.cells = change.cells;
     const glm::dmat4 worldFromEye = glm::inverse(glm::dmat4(scene.camera.view()));
     glm::mat4 cellFromEye(1.0f);
@@ -64,7 +93,8 @@ graph::BufferId VoxelVolume::add(graph::Graph& graph, const Scene& scene, const 
             cellFromEye[column][row] = float(worldFromEye[column][row] / change.cellSize - (column == 3 ? double(change.origin[row]) - 0.5 : 0.0));
     for (int axis = 0; axis < 3; ++axis) volume.origin[axis] = change.origin[axis];
     std::memcpy(volume.cellFromEye, &cellFromEye, sizeof(volume.cellFromEye));
-    if (how.voxelizer == Voxelizer::gpu) return m_raster.add(graph, scene.drawables, scene.posed, change, scene.masked, how.shell);
+    if (grid) return uploadGrid(graph, change);
+    if (onGpu) return m_raster.add(graph, scene.drawables, scene.posed, change, scene.masked, how.shell);
     return upload(graph, change);
 }
 

@@ -1,6 +1,8 @@
 // The volume that methods trace, as the GPU has it: the window of runtime/voxel, uploaded brick by brick as it changes, or
-// rasterised on the GPU where the window stands.
+// rasterised on the GPU where the window stands; or all of the world as a NanoVDB grid.
 #pragma once
+
+#include <functional>
 
 #include "ao/prepare.h"
 #include "graph/graph.h"
@@ -15,12 +17,13 @@ enum class Voxelizer : uint8_t { openvdb, gpu };
 // How the world is voxelized for methods that need a volume.
 struct Voxelization {
     Voxelizer voxelizer = Voxelizer::openvdb;  // gpu: all of it, every frame
+    ao::VolumeStructure structure = ao::VolumeStructure::dense;  // nanovdb: all of the world; the GPU makes none of these
     voxel::Shell shell = voxel::Shell::conservative;
     uint32_t cells = 256;         // a side of the window on the GPU: 64, 128, 256 or 512
     float cellSize = 0.0f;        // metres; 0: the world's longest side fills the window, at most 0.14 m
     bool exact = true;            // every frame waits for its own voxels; else they may be a frame behind and nobody waits
     std::filesystem::path cache;  // folder where what rests is kept; empty: nowhere
-    bool operator==(const Voxelization&) const = default;
+    std::function<void(float)> building;  // 0 to 1 while the world is made and 1 at its end, from the thread that adds frames
 };
 
 class VoxelVolume {
@@ -43,10 +46,11 @@ public:
 
 private:
     graph::BufferId upload(graph::Graph& graph, const voxel::Change& change);
+    graph::BufferId uploadGrid(graph::Graph& graph, const voxel::Change& change);
     std::unique_ptr<voxel::Voxels> m_voxels;
     Voxelization m_how;
     bool m_masked = true;
-    gpu::Buffer m_bits;
+    gpu::Buffer m_bits;                // or the grid
     VoxelRaster m_raster;
 };
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <nanovdb/util/OpenToNanoVDB.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <unistd.h>
@@ -53,6 +54,32 @@ bool Sparse::find(const glm::ivec3& place, Brick& out) const {
 }
 
 bool Sparse::test(const glm::ivec3& cell) const { return m_impl->tree().isValueOn(openvdb::Coord(cell.x, cell.y, cell.z)); }
+
+Sparse Sparse::copy() const {
+    Sparse result;
+    result.m_impl->grid = m_impl->grid->deepCopy();
+    return result;
+}
+
+bool Sparse::put(const glm::ivec3& place, const Brick& brick) {
+    const openvdb::Coord at = firstCell(place);
+    auto* leaf = m_impl->tree().probeLeaf(at);
+    if (brick.empty()) {
+        if (leaf) delete m_impl->tree().root().stealNode<openvdb::MaskTree::LeafNodeType>(at, false, false);
+        return leaf != nullptr;
+    }
+    if (!leaf) leaf = m_impl->tree().touchLeaf(at);
+    const bool same = std::memcmp(leaf->buffer().data(), brick.words.data(), sizeof(Brick)) == 0;
+    std::memcpy(leaf->buffer().data(), brick.words.data(), sizeof(Brick));
+    return !same;
+}
+
+std::vector<uint32_t> Sparse::nano() const {
+    const auto handle = nanovdb::openToNanoVDB<nanovdb::HostBuffer, openvdb::MaskTree, nanovdb::ValueMask>(*m_impl->grid, nanovdb::StatsMode::BBox, nanovdb::ChecksumMode::Disable);
+    std::vector<uint32_t> words((handle.size() + 3) / 4, 0);
+    std::memcpy(words.data(), handle.data(), handle.size());
+    return words;
+}
 
 uint64_t Sparse::cells() const { return m_impl->tree().activeVoxelCount(); }
 uint64_t Sparse::bricks() const { return m_impl->tree().leafCount(); }

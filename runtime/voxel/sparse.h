@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "voxel/bricks.h"
 
@@ -18,9 +19,15 @@ public:
     Sparse& operator=(Sparse&&) noexcept;
 
     void add(const BrickSet& bricks);
+    Sparse copy() const;
+    // Replaces a brick, an empty one by nothing. False: that is what stood there.
+    bool put(const glm::ivec3& place, const Brick& brick);
     // False: no such brick. Any number of threads may ask.
     bool find(const glm::ivec3& place, Brick& out) const;
     bool test(const glm::ivec3& cell) const;
+
+    // The same cells as a NanoVDB grid of type mask, which shaders read through PNanoVDB.
+    std::vector<uint32_t> nano() const;
 
     uint64_t cells() const;   // set ones
     uint64_t bricks() const;

@@ -16,6 +16,7 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
 constexpr std::chrono::microseconds kPatience(900);  // of a millisecond: the rest is for waking up
+constexpr std::chrono::milliseconds kLook(100);    // how often a bar moves
 
 }  // namespace
 
@@ -32,6 +33,8 @@ struct Voxels::Impl {
     Objects objects;
     Window window;
     Picked picked;
+    Sparse composed;                  // what rests and what moves, where a grid is brought
+    std::vector<uint32_t> grid;       // of it
     bool failed = false;              // the world as it rests cannot be held: said once, tried again when it is another
     std::vector<std::string> lines;
     double stepMilliseconds = 0.0;
@@ -39,13 +42,34 @@ struct Voxels::Impl {
     // The caller's.
     Change change;
     bool whole = false;
+    uint64_t sentGrid = 0;            // bytes of the newest grid
     Statistics statistics;
     std::atomic<float> progress{1.0f};
+    bool told = true;                 // that building is over
     Worker worker;                    // last: its thread ends before the rest goes
 
+    void tell();
+    void composeGrid(std::span<const glm::ivec3> changed, bool all, const Window::Compose& compose);
     void step();
     void collect();
 };
+
+void Voxels::Impl::tell() {
+    const float now = progress;
+    if (options.progress && (now < 1.0f || !told)) options.progress(now);
+    told = now >= 1.0f;
+}
+
+void Voxels::Impl::composeGrid(std::span<const glm::ivec3> changed, bool all, const Window::Compose& compose) {
+    if (all) composed = resting.sparse().copy();
+    bool other = all;
+    for (const glm::ivec3& place : changed) {
+        Brick brick;
+        compose(place, brick);
+        other = composed.put(place, brick) || other;
+    }
+    if (other) grid = composed.nano();
+}
 
 // The worker's whole frame.
 void Voxels::Impl::step() {
@@ -88,10 +112,16 @@ void Voxels::Impl::step() {
         objects.add(instance, parts);
     }
     objects.end(time, resting.cellSize(), picked, options.shell, changed, [this](const std::string& line) { lines.push_back(line); });
-    window.update(origin, changed, rebuilt, [this](const glm::ivec3& place, Brick& out) {
+    const auto compose = [this](const glm::ivec3& place, Brick& out) {
         resting.sparse().find(place, out);
         objects.compose(place, out);
-    });
+    };
+    if (options.nano) {
+        window.place(origin);
+        composeGrid(changed, rebuilt, compose);
+    } else {
+        window.update(origin, changed, rebuilt, compose);
+    }
     stepMilliseconds = millisecondsSince(begun);
 }
 
@@ -105,7 +135,13 @@ void Voxels::Impl::collect() {
     if (change.cells == 0) return;
     change.cellSize = resting.cellSize();
     change.origin = window.origin() * kBrickSide;
-    change.addresses = window.takeChanged(whole);
+    change.grid.clear();
+    if (options.nano) {
+        if (!grid.empty()) sentGrid = grid.size() * sizeof(uint32_t);
+        change.grid.swap(grid);
+    } else {
+        change.addresses = window.takeChanged(whole);
+    }
     change.bricks.reserve(change.addresses.size());
     for (const uint32_t address : change.addresses) change.bricks.push_back(window[address]);
     whole = false;
@@ -115,8 +151,8 @@ void Voxels::Impl::collect() {
     statistics.redone = objects.redone();
     statistics.objectCells = objects.cells();
     statistics.objectBytes = objects.bytes();
-    statistics.windowBytes = uint64_t(options.cells) * options.cells * options.cells / 8;
-    statistics.changedBytes = change.bricks.size() * sizeof(Brick);
+    statistics.windowBytes = options.nano ? sentGrid : uint64_t(options.cells) * options.cells * options.cells / 8;
+    statistics.changedBytes = change.bricks.size() * sizeof(Brick) + change.grid.size() * sizeof(uint32_t);
     statistics.workerMilliseconds = stepMilliseconds;
 }
 
@@ -138,16 +174,20 @@ const Change& Voxels::update(const scene::World& world, float time, const glm::v
     if (wait == Wait::exact) {
         impl.worker.wait();
         give();
-        impl.worker.wait();
+        while (!impl.worker.done(kLook)) impl.tell();
+        impl.tell();
         impl.collect();
     } else if (impl.worker.done(kPatience)) {
+        impl.tell();
         impl.collect();
         give();
     } else {
+        impl.tell();
         ++impl.statistics.late;
         impl.statistics.changedBytes = 0;
         impl.change.addresses.clear();
         impl.change.bricks.clear();
+        impl.change.grid.clear();
     }
     impl.statistics.waitMilliseconds = millisecondsSince(begun);
     impl.statistics.worstWait = std::max(impl.statistics.worstWait, impl.statistics.waitMilliseconds);

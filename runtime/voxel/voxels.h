@@ -13,9 +13,11 @@ struct Options {
     double cellSize = 0.0;           // metres; 0: the world's longest side fills the window, at most 0.14 m
     bool masked = true;              // alpha-masked triangles are occluders, as if they had no holes
     Shell shell = Shell::conservative;
+    bool nano = false;               // brings NanoVDB grids of all the world instead of a window's bricks
     bool bits = true;                // false: only where the window stands and how large its cells are; the bits are somebody else's
     std::filesystem::path cache;     // folder of the resting world's .vdb file; empty: nothing is kept
     size_t mostBricks = RasterOptions().mostBricks;
+    std::function<void(float)> progress;          // 0 to 1 while what rests is made, 1 at its end; as say
     std::function<void(const std::string&)> say;  // one line each, from the thread that calls update()
 };
 
@@ -26,13 +28,14 @@ struct Change {
     glm::ivec3 origin{0};            // lowest cell, a multiple of 8
     std::vector<uint32_t> addresses; // of bricks, ascending: brick (x, y, z) of the world stands at ((x & m) (m+1) + (y & m)) (m+1) + (z & m),
     std::vector<Brick> bricks;       //   m = cells / 8 - 1
+    std::vector<uint32_t> grid;      // all that is set, as Sparse::nano() has it; empty: as before, or bricks are brought
 };
 
 struct Statistics {
     RestingFacts resting;
     size_t objects = 0, redone = 0;        // that move; of them redone in the newest frame
     uint64_t objectCells = 0, objectBytes = 0;
-    uint64_t windowBytes = 0;              // on the GPU
+    uint64_t windowBytes = 0;              // on the GPU, of the bits or of the grid
     uint64_t changedBytes = 0;             // of the newest update
     double workerMilliseconds = 0.0;       // of the newest finished frame, building left out
     double waitMilliseconds = 0.0, worstWait = 0.0;  // of the caller, in update()

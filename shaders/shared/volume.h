@@ -8,7 +8,7 @@ OBSCURA_SHARED_BEGIN
 
 struct Volume {
     vec4 rows[3];  // (eye-space point, 1) -> cells from the window's lowest corner
-    uvec4 shift;   // xyz: the lowest cell modulo the side; w: cells a side, a power of two
+    uvec4 shift;   // xyz: the lowest cell modulo the side; w: cells a side, a power of two; 0: a NanoVDB grid, see below
     vec4 anchor;   // xyz: the lowest corner, metres of the world, for noise that stays where it is; w: metres a cell
 };
 OBSCURA_SHARED_SIZE(Volume, 80);
@@ -36,14 +36,34 @@ bool insideVolume(Volume v, vec3 cell) {
     return min(min(cell.x, cell.y), cell.z) >= 0.0 && max(max(cell.x, cell.y), cell.z) < float(v.shift.w);
 }
 
-// A shader that looks cells up says at which binding of set 0 the bits stand, before it includes this.
+// A shader that looks cells up says at which binding of set 0 the bits stand, before it includes this, and calls openVolume() before
+// the first look. With VOLUME_NANOVDB the same functions look into a NanoVDB grid; `shift` is then a cell near the eye, and w 0.
 #ifdef VOLUME_BINDING
+#ifdef VOLUME_NANOVDB
+#include "shared/volume_nanovdb.h"
+#else
 layout(set = 0, binding = VOLUME_BINDING, std430) readonly buffer VolumeBits { uint volumeBits[]; };
 // Whether a place, in cells from the window's lowest corner, lies in a set cell.
 bool occupied(Volume v, vec3 place) {
     uvec3 cell = uvec3(ivec3(place));
     return (volumeBits[wordOf(v, cell)] >> bitOf(v, cell) & 1u) != 0u && insideVolume(v, place);
 }
+void openVolume() {}
+
+// For walks from cell to cell: 0 where a place lies in a set cell, else the side of the largest known cube of empty cells that it lies
+// in, and where that begins; the place is within the box.
+float emptySide(Volume v, vec3 place) {
+    if (occupied(v, place)) return 0.0;
+    uint word = wordOf(v, uvec3(ivec3(place))) & ~15u, any = 0u;
+    for (uint i = 0u; i < 16u; ++i) any |= volumeBits[word + i];
+    return any == 0u ? 8.0 : 1.0;
+}
+vec3 cubeBegin(Volume v, vec3 place, float side) { return floor(place / side) * side; }
+void volumeBox(Volume v, out vec3 low, out vec3 high) {
+    low = vec3(0.0);
+    high = vec3(float(v.shift.w));
+}
+#endif
 #endif
 #endif
 

@@ -56,6 +56,7 @@ public:
         auto result = std::make_unique<Hybrid>();
         result->m_device = &device;
         if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {}, result->m_trace) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace_nanovdb.comp", {}, result->m_traceGrid) != gpu::Status::ok) return nullptr;
         if (Upsample::create(device, shaders, result->m_upsample) != Status::ok) return nullptr;
         return result;
     }
@@ -69,7 +70,7 @@ public:
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
         const Trace trace{inputs.falloff, values.count("rays"), values.count("steps"), scale, std::cos(values["spread"] * 1.5707963f), values["offset"],
                           values["jitter"], 1.0f / kGrain};
-        graph.pass("hybrid.trace", m_trace).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
+        graph.pass("hybrid.trace", inputs.volume.structure == VolumeStructure::dense ? m_trace : m_traceGrid).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
             .read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
         if (scale == 1 && values["filter"] < 1.0f) return map;
 
@@ -85,7 +86,7 @@ private:
     }
 
     gpu::Device* m_device = nullptr;
-    gpu::Program m_trace;
+    gpu::Program m_trace, m_traceGrid;
     Upsample m_upsample;
     bool m_said = false;
 };

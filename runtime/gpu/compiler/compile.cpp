@@ -57,7 +57,11 @@ public:
         std::error_code ignored;
         return include(!beside.empty() && fs::is_regular_file(beside, ignored) ? beside : (m_root / wanted).lexically_normal(), wanted, depth);
     }
-    IncludeResult* includeSystem(const char* wanted, const char*, size_t depth) override { return include((m_root / wanted).lexically_normal(), wanted, depth); }
+    IncludeResult* includeSystem(const char* wanted, const char*, size_t depth) override {
+        const fs::path own = (m_root / wanted).lexically_normal();
+        std::error_code ignored;
+        return include(fs::is_regular_file(own, ignored) ? own : fs::path(OBSCURA_SHADER_INCLUDE) / wanted, wanted, depth);
+    }
     void releaseInclude(IncludeResult*) override {}  // they live as long as the includer
 
 private:

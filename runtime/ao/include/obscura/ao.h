@@ -126,12 +126,16 @@ enum class NormalEncoding : uint8_t { signedFloat, unsignedHalf, octahedral32 };
 // rewrites only what entered. A brick is 8 cells a side, 16 words: cell -> bit 8 (y & 3) + (z & 7) of word
 // 2 (x & 7) + ((y & 7) >> 2); brick (X, Y, Z) = (x, y, z) / 8 modulo s -> words 16 ((X s + Y) s + Z) on, s = cells / 8.
 // Conservative bits are expected: every cell that a triangle touches.
+// Or, for a world that no cube covers, a NanoVDB grid of type mask whose index space counts cells likewise.
+enum class VolumeStructure : uint8_t { dense, nanovdb };
 struct Volume {
-    VkBuffer buffer = VK_NULL_HANDLE;    // storage usage, cells^3 / 8 bytes from `offset` on; null: no volume
+    VolumeStructure structure = VolumeStructure::dense;
+    VkBuffer buffer = VK_NULL_HANDLE;    // storage usage, cells^3 / 8 bytes (nanovdb: `bytes`) from `offset` on; null: no volume
     uint64_t offset = 0;                 // bytes, a multiple of minStorageBufferOffsetAlignment
-    uint32_t cells = 0;                  // a side: a power of two, 8 to 1024
-    int32_t origin[3] = {};              // lowest cell held; a cube that stays put may leave it 0
-    float cellFromEye[16] = {};          // eye space -> cells from the lowest corner, columns; turns, moves and scales evenly
+    uint64_t bytes = 0;                  // nanovdb: of the grid
+    uint32_t cells = 0;                  // dense: a side, a power of two, 8 to 1024
+    int32_t origin[3] = {};              // lowest cell held; a cube that stays put may leave it 0. nanovdb: any cell near the eye
+    float cellFromEye[16] = {};          // eye space -> cells from that cell's lowest corner, columns; turns, moves and scales evenly
 };
 
 struct Frame {

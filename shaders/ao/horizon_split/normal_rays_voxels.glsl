@@ -1,0 +1,34 @@
+// Normal rays through voxels of the world: they meet what the picture does not show, and nothing is endlessly thick.
+#ifndef OBSCURA_NORMAL_RAYS_VOXELS_GLSL
+#define OBSCURA_NORMAL_RAYS_VOXELS_GLSL
+#include "ao/horizon_split/march.glsl"
+#include "shared/volume.h"
+struct Space {
+    Volume volume;
+    vec3 start;  // in cells, as rays are
+};
+#include "ao/horizon_split/normal_rays.glsl"
+layout(set = 0, binding = 7, std140) uniform VolumeBlock { Volume volumeBlock; };
+
+const float kLift = 2.0;       // cells; a plane's own conservative cells end sqrt(3) above it
+const float kStride = 1.25;    // cells a step at most: walls are a cell thick where they lie along the grid
+const float kMostSteps = 64.0;
+
+Space spaceOf(View view, Origin origin) {
+    Volume volume = volumeBlock;
+    openVolume();
+    return Space(volume, cellOf(volume, origin.position + kLift * volume.anchor.w * origin.n));
+}
+vec3 towards(Space space, vec3 d) { return cellsAlong(space.volume, d); }
+
+float blockedAt(Space space, vec3 ray, Steps walk, float first) {
+    float steps = clamp(ceil(walk.radius / (kStride * space.volume.anchor.w)), 1.0, kMostSteps), step = walk.radius / steps, shift = first / walk.part;
+    float result = kFree;
+    for (float k = steps - 1.0; k >= 0.0; --k) {  // back to front: what is found last is nearest
+        float l = (k + shift) * step;
+        result = occupied(space.volume, space.start + l * ray) ? l + 0.5 * kLift * space.volume.anchor.w : result;
+    }
+    return result;
+}
+
+#endif

@@ -1,0 +1,94 @@
+// Hybrid obscurance, first pass [Reinbothe 2009, eq. 4], whatever holds the volume: a cone of rays through its cells, one invocation a
+// pixel of the map. In: volume, linear depth, packed normals. Out: visibility of the map's receivers, and what they are. Formulas in
+// runtime/ao/methods/hybrid.cpp.
+#ifndef OBSCURA_HYBRID_TRACE_GLSL
+#define OBSCURA_HYBRID_TRACE_GLSL
+#include "shared/falloff.h"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+#include "shared/volume.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, std140) uniform VolumeBlock { Volume volumeBlock; };
+layout(set = 0, binding = 3, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D map;
+layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D receivers;  // linear depth as bits, packed normal
+#include "ao/common/map.glsl"
+layout(push_constant) uniform Constants {
+    FalloffBlock falloffBlock;
+    uint rays;
+    uint steps;
+    uint scale;      // pixels a map's pixel, each way
+    float cone;      // cosine of the half angle that rays keep to
+    float offset;    // of their origin along the normal, cells
+    float jitter;    // 1: steps are shifted for each ray; 0: half a step
+    float grain;     // cells of the noise a metre
+};
+
+const float kTwoPi = 6.28318531;
+
+void main() {
+    View view = viewBlock;
+    Volume volume = volumeBlock;
+    FalloffBlock rho = falloffBlock;
+    openVolume();
+    uint rayCount = rays, stepCount = steps;
+    float coneCosine = cone, offsetCells = offset, jitterOfSteps = jitter;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, imageSize(map)))) return;
+    ivec2 texel = receiverOf(view, p, int(scale));
+    float z = imageLoad(depth, texel).x;
+    uint packed = imageLoad(normals, texel).x;
+    imageStore(receivers, p, uvec4(floatBitsToUint(z), packed, 0, 0));
+    if (isSky(view, z)) {
+        imageStore(map, p, vec4(1.0));
+        return;
+    }
+    vec3 here = eyePosition(view, vec2(texel) + 0.5, z);
+    vec3 n = unpackNormal(packed);
+    if (dot(n, towardsEye(view, here)) < 0.0) n = -n;
+
+    // From here on in cells: a step is one vector, and turning into the world is done once.
+    float metres = volume.anchor.w;
+    vec3 normal = cellsAlong(volume, n) * metres;
+    vec3 receiver = cellOf(volume, here);
+    vec3 origin = receiver + offsetCells * normal;
+    // Noise of the place, not of the pixel: it rests on the surface while the camera moves.
+    vec3 xi = fract(latticeNoise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
+    vec3 tangent, bitangent;
+    around(normal, tangent, bitangent);
+
+    float step = rho.reach / float(stepCount), cellsPerStep = step / metres;
+    float lift = offsetCells * metres;
+    // The azimuth turns by the golden angle from ray to ray.
+    vec2 turned = vec2(cos(kTwoPi * xi.y), sin(kTwoPi * xi.y));
+    const vec2 golden = vec2(-0.737368878, -0.675490294);
+    // An origin that lies in a set cell is beside another surface: which half of its rays that blocks, bits do not say, so each
+    // counts half, and then goes on from where the cell ends.
+    bool buried = occupied(volume, origin);
+    float nearest = buried ? 1.0 / cellsPerStep : 0.0, half0 = buried ? 0.5 : 0.0;
+    float blocked = 0.0, total = 0.0, shift = xi.z;
+    for (uint i = 0u; i < rayCount; ++i) {
+        float c = mix(coneCosine, 1.0, (float(i) + xi.x) / float(rayCount));
+        float sine = sqrt(max(1.0 - c * c, 0.0));
+        vec3 stride = (tangent * (turned.x * sine) + bitangent * (turned.y * sine) + normal * c) * cellsPerStep;
+        float first = mix(0.5, shift, jitterOfSteps);
+        // Back to front: the last hit is the nearest.
+        float hit = -1.0;
+        for (uint k = stepCount; k > 0u; --k) {
+            float t = float(k - 1u) + first;
+            vec3 at = origin + stride * t;
+            hit = occupied(volume, at) && t >= nearest ? t : hit;
+        }
+        // From the receiver, not from the lifted origin: as far as to a surface that faces the ray.
+        float far = hit >= 0.0 ? falloff(rho, hit * step + lift * c) : 0.0;
+        blocked += c * mix(far, falloff(rho, lift * c), half0);
+        total += c;
+        turned = vec2(turned.x * golden.x - turned.y * golden.y, turned.x * golden.y + turned.y * golden.x);
+        shift = fract(shift + 0.754877666);
+    }
+    imageStore(map, p, vec4(clamp(1.0 - blocked / total, 0.0, 1.0)));
+}
+
+#endif

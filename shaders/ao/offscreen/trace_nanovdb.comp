@@ -1,0 +1,6 @@
+// Occluders that a screen-space method misses, from a NanoVDB grid.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define VOLUME_NANOVDB
+#define VOLUME_BINDING 2
+#include "trace.glsl"

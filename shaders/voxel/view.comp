@@ -1,0 +1,5 @@
+// The window of bits as a picture.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define VOLUME_BINDING 2
+#include "voxel/view.glsl"

@@ -1,0 +1,149 @@
+// Either structure of the volume gives the same answer wherever it is asked, through the one function that shaders have.
+#include <cstring>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "gpu/compiler/compile.h"
+#include "gpu/test_device.h"
+#include "gpu/test_shaders.h"
+#include "graph/graph.h"
+#include "shared/volume.h"
+#include "voxel/shapes.h"
+#include "voxel/sparse.h"
+#include "voxel/window.h"
+
+namespace obscura::test {
+namespace {
+
+constexpr const char* kLookups = R"(#version 460
+#define VOLUME_BINDING 1
+#include "shared/volume.h"
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, std140) uniform VolumeBlock { Volume volumeBlock; };
+layout(set = 0, binding = 2, std430) readonly buffer Places { vec4 places[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer Answers { uint answers[]; };
+void main() {
+    Volume volume = volumeBlock;
+    openVolume();
+    uint i = gl_GlobalInvocationID.x * 16u;
+    for (uint k = 0u; k < 16u; ++k)
+        if (i + k < places.length()) {
+            vec3 place = places[i + k].xyz;
+            bool set = occupied(volume, place);
+            float side = emptySide(volume, place);
+            vec3 begin = cubeBegin(volume, place, max(side, 1.0));
+            bool sound = side == 0.0 ? set : !set && all(lessThanEqual(begin, place)) && all(greaterThan(begin + side, place));
+            answers[i + k] = (set ? 1u : 0u) | (sound ? 0u : 2u);
+        }
+}
+)";
+
+class VolumeLookupTest : public GpuTest {
+protected:
+    std::vector<uint32_t> ask(bool grid, const shared::Volume& block, std::span<const uint32_t> words, const std::vector<glm::vec4>& places) {
+        TestShaders files;  // beside the project's own, which are included by their full names
+        std::string text = kLookups;
+        if (grid) text.insert(text.find("#define"), "#define VOLUME_NANOVDB\n");
+        const std::filesystem::path root = std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders";
+        files.write("lookup.comp", text);
+        gpu::Shader shader;
+        std::string error;
+        std::vector<std::filesystem::path> read;
+        EXPECT_TRUE(gpu::compileShader(files.root() / "lookup.comp", root, shader, error, read)) << error;
+        if (!error.empty()) return {};
+        const std::string reflection = gpu::describe(shader);
+        const gpu::EmbeddedShader embedded{"lookup.comp", shader.spirv, reflection.c_str()};
+        gpu::ShaderLibrary shaders;
+        shaders.add(std::span(&embedded, 1));
+        gpu::Program program;
+        EXPECT_EQ(gpu::Program::compute(device(), shaders, "lookup.comp", {}, program), gpu::Status::ok);
+        graph::Graph graph(device());
+        device().nextFrame();
+        graph.begin();
+        gpu::Buffer back;
+        const uint64_t bytes = places.size() * sizeof(uint32_t);
+        EXPECT_EQ(gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+        const graph::BufferId answers = graph.buffer("answers", bytes);
+        graph.pass("look up", program).read(graph.upload("block", block)).read(graph.upload("bits", words.data(), words.size_bytes()))
+            .read(graph.upload("places", places.data(), places.size() * sizeof(glm::vec4))).write(answers).dispatch(uint32_t(places.size() + 15) / 16);
+        graph.pass("read back").use(answers, graph::Access::transferRead).use(graph.import("back", back, graph::Graph::Shared::written), graph::Access::transferWrite)
+            .keep().record([=, to = back.handle()](const graph::PassContext& c) {
+                const VkBufferCopy copy{c.buffer(answers).offset, 0, bytes};
+                c.device.vk().CmdCopyBuffer(c.cmd, c.buffer(answers).buffer, to, 1, &copy);
+            });
+        EXPECT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
+        std::vector<uint32_t> result(places.size());
+        std::memcpy(result.data(), back.mapped(), bytes);
+        for (const auto& stage : {program.pipeline()}) EXPECT_NE(stage, VK_NULL_HANDLE);
+        device().waitIdle();
+        return result;
+    }
+
+    // The world's cells in a window of 64 around `origin`, by both structures and by the set itself.
+    void expectSame(const voxel::BrickSet& cells, const glm::ivec3& origin) {
+        voxel::Sparse sparse;
+        sparse.add(cells);
+        voxel::Window window(64);
+        window.update(origin / 8, {}, true, [&](const glm::ivec3& place, voxel::Brick& out) { sparse.find(place, out); });
+        std::vector<uint32_t> dense(64 * 64 * 64 / 32, 0);
+        for (const uint32_t address : window.takeChanged(true)) std::memcpy(&dense[address * 16], &window[address], sizeof(voxel::Brick));
+        shared::Volume block{};
+        block.shift = {uint32_t(origin.x) & 63, uint32_t(origin.y) & 63, uint32_t(origin.z) & 63, 64};
+        shared::Volume gridBlock = block;
+        gridBlock.shift = {uint32_t(origin.x), uint32_t(origin.y), uint32_t(origin.z), 0};
+
+        std::vector<glm::vec4> places;  // every cell of the window, then random places in and around it
+        for (int i = 0; i < 64 * 64 * 64; ++i) places.emplace_back(float(i / 4096) + 0.5f, float(i / 64 % 64) + 0.5f, float(i % 64) + 0.5f, 0.0f);
+        std::mt19937 random(5);
+        std::uniform_real_distribution<float> anywhere(0.0f, 63.99f), far(-5000.0f, 5000.0f);
+        for (int i = 0; i < 20000; ++i) places.emplace_back(anywhere(random), anywhere(random), anywhere(random), 0.0f);
+        const size_t within = places.size();
+        for (int i = 0; i < 20000; ++i) places.emplace_back(far(random), far(random), far(random), 0.0f);
+        const std::vector<uint32_t> bits = ask(false, block, dense, places), grid = ask(true, gridBlock, sparse.nano(), places);
+        ASSERT_EQ(bits.size(), places.size());
+        ASSERT_EQ(grid.size(), places.size());
+        size_t set = 0;
+        for (size_t i = 0; i < places.size(); ++i) {
+            const bool expected = cells.test(origin + glm::ivec3(glm::floor(glm::vec3(places[i]))));
+            ASSERT_EQ(grid[i], expected ? 1u : 0u) << "grid, place " << i << ": " << places[i].x << ' ' << places[i].y << ' ' << places[i].z;
+            if (i < within) ASSERT_EQ(bits[i], grid[i]) << "bits, place " << i;
+            set += expected;
+        }
+        fmt::print("{} of {} places set\n", set, places.size());
+    }
+};
+
+TEST_F(VolumeLookupTest, bothStructuresAgree) {
+    voxel::BrickSet random;
+    const Soup soup = randomSoup(400, 6.0f, 3.0f, 4);
+    voxel::rasterise(soup.triangles(), 0.1, random);
+    for (const glm::ivec3& origin : {glm::ivec3(-32), glm::ivec3(16, -40, 8)}) expectSame(random, origin);
+    voxel::BrickSet structured;  // corners of nodes, a full brick, lone cells far away
+    for (const int at : {-4096, -129, -128, -1, 0, 7, 8, 127, 128, 4095, 4096})
+        for (const int other : {-1, 0, 31}) structured.set({at, other, -other});
+    for (int i = 0; i < 512; ++i) structured.set({16 + i / 64, 8 + i / 8 % 8, i % 8});
+    for (const glm::ivec3& origin : {glm::ivec3(-32), glm::ivec3(-8, -8, -32), glm::ivec3(4064, -32, -32)}) expectSame(structured, origin);
+    expectSame(voxel::BrickSet(), glm::ivec3(0));
+}
+
+TEST_F(VolumeLookupTest, bricksAreReplaced) {
+    voxel::BrickSet cells;
+    cells.set({1, 2, 3});
+    cells.set({100, 0, 0});
+    voxel::Sparse sparse;
+    sparse.add(cells);
+    voxel::Brick brick;
+    brick.set(4, 4, 4);
+    EXPECT_TRUE(sparse.put({0, 0, 0}, brick));
+    EXPECT_FALSE(sparse.put({0, 0, 0}, brick));
+    EXPECT_FALSE(sparse.test({1, 2, 3}));
+    EXPECT_TRUE(sparse.test({4, 4, 4}));
+    EXPECT_TRUE(sparse.put({12, 0, 0}, {}));
+    EXPECT_FALSE(sparse.put({12, 0, 0}, {}));
+    EXPECT_EQ(sparse.bricks(), 1u);
+    EXPECT_EQ(sparse.cells(), 1u);
+}
+
+}  // namespace
+}  // namespace obscura::test
