@@ -148,6 +148,15 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
     if (hasNormals && !complete(frame.normals)) return say(*context, "Frame::normals lacks its image, view, format or layout"), output;
     const bool hasMotion = frame.motion.image || frame.motion.view;
     if (hasMotion && !complete(frame.motion)) return say(*context, "Frame::motion lacks its image, view, format or layout"), output;
+    const DepthLayers& layers = frame.layers;
+    const bool hasThickness = layers.thickness.image || layers.thickness.view, hasSecond = layers.second.image || layers.second.view;
+    if (hasThickness && !complete(layers.thickness)) return say(*context, "Frame::layers.thickness lacks its image, view, format or layout"), output;
+    if (hasSecond && !complete(layers.second)) return say(*context, "Frame::layers.second lacks its image, view, format or layout"), output;
+    if (hasSecond && !hasThickness) return say(*context, "Frame::layers.second is of no use without Frame::layers.thickness"), output;
+    const auto isSize = [&](uint32_t side) {
+        return layers.secondSize.width == (frame.size.width + side - 1) / side && layers.secondSize.height == (frame.size.height + side - 1) / side;
+    };
+    if (hasSecond && !isSize(1) && !isSize(2)) return say(*context, "Frame::layers.secondSize is neither Frame::size nor half of it"), output;
     shared::View view;
     const char* reason = nullptr;
     if (viewOf(frame, view, reason) != Status::ok) return say(*context, reason), output;
@@ -168,6 +177,8 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
     sources.depth = importView(graph, "depth", frame.depth, frame.size);
     if (hasNormals) sources.normals = importView(graph, "normals", frame.normals, frame.size);
     if (hasMotion) sources.motion = importView(graph, "motion", frame.motion, frame.size);
+    if (hasThickness) sources.layers.thickness = importView(graph, "thickness", layers.thickness, frame.size);
+    if (hasSecond) sources.layers.second = importView(graph, "second layer", layers.second, layers.secondSize);
     if (frame.cut) context->library->reset();
     if (const Volume& v = frame.volume; v.buffer)
         sources.volume = graph.import("volume bits", {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});

@@ -63,6 +63,9 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     m_last = &values.info();
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
     if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure};
+    const LayerUse use = layersOf(values);
+    if (use != LayerUse::none) inputs.layers.thickness = sources.layers.thickness;
+    if (use > LayerUse::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;
     previousFromEye(frame.eyeFromWorld, m_hasLast ? m_eyeFromWorld : frame.eyeFromWorld, inputs.previousFromEye);
     std::memcpy(m_eyeFromWorld, frame.eyeFromWorld, sizeof(m_eyeFromWorld));
     m_hasLast = true;

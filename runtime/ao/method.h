@@ -24,6 +24,11 @@ struct VolumeInput {
     explicit operator bool() const { return bool(bits); }
 };
 
+// Depth layers as DepthLayers in obscura/ao.h describes them, to be sampled. Either may be missing.
+struct LayerSources {
+    graph::ImageId thickness, second;
+};
+
 // What prepare() hands to every method.
 struct Inputs {
     shared::View view;
@@ -33,6 +38,7 @@ struct Inputs {
     graph::ImageId motion;       // two floats, view.size, optional: times motionScale, px from this frame's position to last frame's
     float motionScale[2];
     float previousFromEye[12];   // three rows: where a point of this frame's eye space that stands still in the world was in last frame's
+    LayerSources layers;         // optional; what the values leave unused is left out
     VolumeInput volume;          // optional
     shared::FalloffBlock falloff;
     Falloff falloffDesc;
@@ -74,6 +80,11 @@ public:
     // Histories, if any, are void after this: camera cut, method switch.
     virtual void reset() {}
 };
+
+// How much of the depth layers a method reads: the value of its parameter `depth_layers`, none where it has no such parameter.
+enum class LayerUse : uint32_t { none, first, secondHalf, second };
+LayerUse layersOf(const Values& values);
+inline constexpr const char* kLayerChoices[] = {"none", "thickness", "two, half size", "two"};  // of such a parameter
 
 struct MethodEntry {
     const MethodInfo* info;

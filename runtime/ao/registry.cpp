@@ -18,6 +18,7 @@ MethodEntry statisticalEntry();
 MethodEntry farFieldEntry();
 MethodEntry mipmapEntry();
 MethodEntry hybridEntry();
+MethodEntry layeredEntry();
 
 namespace {
 
@@ -53,7 +54,7 @@ struct Composed {
 
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
-        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry()};
+        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;
@@ -120,5 +121,7 @@ float Values::operator[](const char* id) const {
     assert(!"a method asked for a parameter that its table does not have");
     return 0.0f;
 }
+
+LayerUse layersOf(const Values& values) { return values.has("depth_layers") ? LayerUse(values.count("depth_layers")) : LayerUse::none; }
 
 }  // namespace obscura::ao

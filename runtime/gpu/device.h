@@ -54,6 +54,7 @@ struct Caps {
     bool debugUtils = false;
     bool validation = false;          // the Khronos layer is on
     bool presentation = false;
+    bool fragmentWrites = false;      // fragment shaders may write images and use atomics; unknown, so false, on adopted devices
     float maxAnisotropy = 1.0f;       // 1 where the feature is off
     uint32_t maxImageSize = 4096;     // pixels a side, 2D
 };

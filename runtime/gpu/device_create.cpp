@@ -99,6 +99,7 @@ const char* chooseFeatures(const Features& has, Features& wants) {
     wants.core.features.samplerAnisotropy = has.core.features.samplerAnisotropy;
     wants.core.features.shaderStorageImageWriteWithoutFormat = has.core.features.shaderStorageImageWriteWithoutFormat;
     wants.core.features.independentBlend = has.core.features.independentBlend;
+    wants.core.features.fragmentStoresAndAtomics = has.core.features.fragmentStoresAndAtomics;
     return nullptr;
 }
 
@@ -304,6 +305,7 @@ bool Device::createDevice(const DeviceOptions& options, std::string& error) {
     }
     m_device = made;
     m_vk.GetDeviceQueue(m_device, m_queueFamily, 0, &m_queue);
+    m_caps.fragmentWrites = wants.core.features.fragmentStoresAndAtomics;
     if (wants.core.features.samplerAnisotropy) m_caps.maxAnisotropy = chosen->properties.limits.maxSamplerAnisotropy;
     return true;
 }

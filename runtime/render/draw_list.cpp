@@ -35,6 +35,9 @@ shared::DrawItem itemOf(const Drawable& drawable, const CameraPair& camera, cons
     }
     item.normal[0].w = still ? 1.0f : 0.0f;
     item.normal[1].w = side;
+    const scene::Shell shell = drawable.primitive->material->shell;
+    const float number = float((drawable.primitive->part + 37 * drawable.model->serial) % 63 + 1);
+    item.normal[2].w = shell == scene::Shell::sheet ? 0.0f : shell == scene::Shell::flipped ? -number : number;
     return item;
 }
 

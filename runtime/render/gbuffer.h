@@ -13,7 +13,7 @@ struct GBuffer {
     graph::ImageId shaded;     // likewise, interpolated and normal-mapped
     graph::ImageId motion;     // RG16F, px to last frame's position; 0 where nothing is
     graph::ImageId baseColor;  // RGBA8 sRGB, alpha: occlusion map
-    graph::ImageId material;   // RGBA8: roughness, metalness, unlit
+    graph::ImageId material;   // RGBA8: roughness, metalness, unlit, which side of which solid (shaders/scene/face.glsl)
     graph::ImageId emission;   // B10G11R11F
 };
 

@@ -146,13 +146,14 @@ Status ModelGpu::create(gpu::Device& device, std::shared_ptr<const scene::Model>
     out.model = std::move(source);
     const scene::Model& model = *out.model;
     Blob vertices, indices, rest, influences, targets, materials;
-    uint32_t serial = 0;
+    uint32_t serial = 0, part = 0;
 
     for (const scene::Mesh& mesh : model.meshes) {
         std::vector<PrimitiveGpu>& primitives = out.meshes.emplace_back();
         for (const scene::Primitive& primitive : mesh.primitives) {
             PrimitiveGpu gpu;
             gpu.source = &primitive;
+            gpu.part = part++;
             gpu.materialIndex = uint32_t(primitive.material);
             gpu.material = &model.materials[size_t(primitive.material)];
             gpu.vertexCount = uint32_t(primitive.positions.size());

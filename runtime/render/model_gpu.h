@@ -25,6 +25,7 @@ struct PrimitiveGpu {
     bool skinned = false, morphed = false;
     scene::Bounds bounds;                                // of the rest positions its triangles use
     uint32_t serial = 0;                                 // in its model
+    uint32_t part = 0;                                   // of the primitive it is a chunk of, likewise
 
     // Deformed primitives only, in the units of scene/deform.comp.
     uint32_t restPositions = 0, restFrames = 0, influences = ~0u, targets = 0;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "render/gbuffer.h"
+#include "render/layers.h"
 #include "render/lighting.h"
 #include "render/shadow.h"
 #include "render/views.h"
@@ -29,6 +30,7 @@ struct Renderer::Impl {
     Materials materials;
     Deform deform;
     GBufferPass gbuffer;
+    LayersPass layers;
     Shadow shadow;
     Lighting lighting;
     Views views;
@@ -93,6 +95,7 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
     Status status = Materials::create(device, impl.materials);
     if (status == Status::ok) status = Deform::create(device, shaders, impl.deform);
     if (status == Status::ok) status = GBufferPass::create(device, shaders, impl.gbuffer);
+    if (status == Status::ok) status = LayersPass::create(device, shaders, impl.layers);
     if (status == Status::ok) status = Shadow::create(device, shaders, impl.shadow);
     if (status == Status::ok) status = Lighting::create(device, shaders, impl.lighting);
     if (status == Status::ok) status = Views::create(device, shaders, impl.views);
@@ -220,6 +223,11 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
 
     ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
     ao::Sources sources{g.depth, g.geometric, g.motion};
+    const bool showsLayers = options.view == View::thickness || options.view == View::second || options.view == View::secondThickness;
+    const ao::LayerUse use = std::max({ao::layersOf(*options.method), options.compare ? ao::layersOf(*options.compare) : ao::LayerUse::none,
+                                       showsLayers ? ao::LayerUse::second : ao::LayerUse::none});
+    if (use != ao::LayerUse::none)
+        sources.layers = impl.layers.add(graph, g, frame, items, impl.draws, posed, impl.materials, use, options.layerForm);
     const uint32_t needs = ao::needs(*options.method) | (options.compare ? ao::needs(*options.compare) : 0);
     if ((needs & ao::kVolume) || isVoxels(options.view)) {
         const VoxelVolume::Scene scene{world, options.time, options.camera, impl.actors.drawables(), posed, !options.skipMasked};
@@ -236,6 +244,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     out.normals = g.geometric;
     out.motion = g.motion;
     out.voxels = sources.volume;
+    out.layers = sources.layers;
     if (options.sampleStep && prepared.depth) out.samples = impl.views.samples(graph, out, options.sampleStep, view);
     if (options.view == View::final || options.view == View::pass) {
         Lighting::Inputs in;
@@ -266,7 +275,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     if (isDifference(options.view) && out.sides[1])
         out.color = impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
     if (options.view == View::history || options.view == View::rejected) out.color = impl.views.addHistory(graph, options.view, view);
-    if (!out.color) out.color = impl.views.add(graph, options.view, g, out.visibility, view);
+    if (!out.color) out.color = impl.views.add(graph, options.view, g, sources.layers, out.visibility, view);
     return out;
 }
 

@@ -16,14 +16,16 @@
 namespace obscura::render {
 
 enum class View : uint8_t {
-    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, voxels, voxelSlice, difference, signedDifference,
+    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, thickness, second, secondThickness,
+    voxels, voxelSlice, difference, signedDifference,
     history, rejected, pass
 };
 // "final", "visibility", ... and "pass:NAME" (what the graph's pass NAME wrote); false when unknown.
 bool parseView(const std::string& text, View& view, std::string& pass);
 const char* name(View view);
 inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
-                                  View::baseColor, View::roughness, View::metalness, View::emission, View::voxels, View::voxelSlice, View::difference, View::signedDifference,
+                                  View::baseColor, View::roughness, View::metalness, View::emission,
+                                  View::thickness, View::second, View::secondThickness, View::voxels, View::voxelSlice, View::difference, View::signedDifference,
                                   View::history, View::rejected};
 // Of the volume, which is then made whether a method needs it or not.
 constexpr bool isVoxels(View view) { return view == View::voxels || view == View::voxelSlice; }
@@ -46,6 +48,9 @@ struct VoxelSlice {
     std::optional<float> at;  // metres along it; none: where the camera is
 };
 
+// How depth layers are drawn, for methods that read them: `best` is what the device does in less time.
+enum class LayerForm : uint8_t { best, peeling, ladder };
+
 struct FrameOptions {
     VkExtent2D visible{1280, 720};    // px
     float guard = 0.1f;               // fraction of each side, 0 to 0.5
@@ -61,6 +66,7 @@ struct FrameOptions {
     View view = View::final;
     std::string passView;             // for View::pass
     uint32_t sampleStep = 0;          // > 0: Outputs::samples of every so many pixels
+    LayerForm layerForm = LayerForm::best;
     Voxelization voxels;              // for methods that need a volume
     VoxelSlice slice;
     Sun sun;
@@ -85,6 +91,7 @@ struct Outputs {
     graph::ImageId normals;         // R32UI, packNormal(): geometric, eye space
     graph::ImageId motion;          // RG16F, px to last frame's position
     graph::BufferId voxels;         // bits of the volume, as shared/volume.h has them; none where the method needs none
+    ao::LayerSources layers;        // R16F and RG32F, see obscura/ao.h; none unless the method reads them
 };
 
 struct SceneFacts {

@@ -9,7 +9,8 @@ namespace obscura::render {
 namespace {
 
 constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion",
-                                  "base-color", "roughness", "metalness", "emission", "voxels", "voxel-slice", "difference", "signed-difference", "history", "rejected", "pass"};
+                                  "base-color", "roughness", "metalness", "emission", "thickness", "second", "second-thickness",
+                                  "voxels", "voxel-slice", "difference", "signed-difference", "history", "rejected", "pass"};
 
 // How to show an image of which only the format is known.
 uint32_t modeOf(VkFormat format, const std::string& name) {
@@ -84,7 +85,7 @@ graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t 
     return picture;
 }
 
-graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, graph::ImageId visibility, const shared::View& frame) {
+graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, const ao::LayerSources& layers, graph::ImageId visibility, const shared::View& frame) {
     switch (view) {
         case View::normals: return show(graph, g.geometric, shared::kViewNormal, frame);
         case View::shadedNormals: return show(graph, g.shaded, shared::kViewNormal, frame);
@@ -94,6 +95,9 @@ graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, grap
         case View::roughness: return show(graph, g.material, shared::kViewGrey, frame);
         case View::metalness: return show(graph, g.material, shared::kViewSecond, frame);
         case View::emission: return show(graph, g.emission, shared::kViewColor, frame);
+        case View::thickness: return show(graph, layers.thickness, shared::kViewThickness, frame);
+        case View::second: return show(graph, layers.second, shared::kViewLinearDepth, frame);
+        case View::secondThickness: return show(graph, layers.second, shared::kViewSecondThickness, frame);
         default: return show(graph, visibility, shared::kViewGrey, frame);
     }
 }

@@ -12,8 +12,9 @@ class Views {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Views& out);
     // Any of kViews but final. Values mean: normals n/2 + 1/2; depth near bright, logarithmic; motion grey at rest;
-    // visibility, roughness and metalness as they are (byte = 255 * value); colours sRGB-encoded.
-    graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, graph::ImageId visibility, const shared::View& frame);
+    // visibility, roughness and metalness as they are (byte = 255 * value); colours sRGB-encoded; thickness logarithmic, 1 mm black,
+    // 10 m white, open sheets blue, endless and nothing red.
+    graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, const ao::LayerSources& layers, graph::ImageId visibility, const shared::View& frame);
     // What the pass of that name wrote first; none when no such pass has been added or its image cannot be shown.
     graph::ImageId addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame);
     // What the temporal pass made of the past: frames that a pixel's history holds, logarithmic, white 63 of them; or, white, where the past was

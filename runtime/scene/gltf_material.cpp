@@ -89,7 +89,19 @@ private:
     std::map<std::pair<int, bool>, int> m_textures, m_images;
 };
 
-Material materialOf(const tinygltf::Material& from, Looks& looks, const std::string& pointer) {
+// "extras": {"obscura_shell": "solid" | "flipped" | "sheet"}. Where nothing is said, what has holes and two sides is a card: a sheet.
+Shell shellOf(const tinygltf::Material& from, const Material& material, Context& context, const std::string& pointer) {
+    const Shell usual = material.alphaMode == AlphaMode::mask && material.doubleSided ? Shell::sheet : Shell::solid;
+    if (!from.extras.IsObject() || !from.extras.Has("obscura_shell")) return usual;
+    const tinygltf::Value& said = from.extras.Get("obscura_shell");
+    const std::string word = said.IsString() ? said.Get<std::string>() : "";
+    for (const auto& [name, shell] : {std::pair("solid", Shell::solid), std::pair("flipped", Shell::flipped), std::pair("sheet", Shell::sheet)})
+        if (word == name) return shell;
+    context.warn(pointer + "/extras/obscura_shell", "is neither \"solid\", \"flipped\" nor \"sheet\", it is ignored");
+    return usual;
+}
+
+Material materialOf(Context& context, const tinygltf::Material& from, Looks& looks, const std::string& pointer) {
     Material material;
     material.name = from.name;
     const auto& pbr = from.pbrMetallicRoughness;
@@ -106,6 +118,7 @@ Material materialOf(const tinygltf::Material& from, Looks& looks, const std::str
     material.alphaMode = from.alphaMode == "MASK" ? AlphaMode::mask : from.alphaMode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
     material.doubleSided = from.doubleSided;
     material.unlit = from.extensions.count(kUnlit) != 0;
+    material.shell = shellOf(from, material, context, pointer);
     const std::string inner = pointer + "/pbrMetallicRoughness";
     material.baseColorTexture = looks.use(pbr.baseColorTexture, true, inner + "/baseColorTexture");
     material.metallicRoughnessTexture = looks.use(pbr.metallicRoughnessTexture, false, inner + "/metallicRoughnessTexture");
@@ -120,7 +133,7 @@ Material materialOf(const tinygltf::Material& from, Looks& looks, const std::str
 void addMaterials(Context& context, const Asset& asset, bool withImages, Model& model) {
     Looks looks(context, asset, model);
     for (size_t i = 0; i < asset.gltf->materials.size(); ++i)
-        model.materials.push_back(materialOf(asset.gltf->materials[i], looks, fmt::format("/materials/{}", i)));
+        model.materials.push_back(materialOf(context, asset.gltf->materials[i], looks, fmt::format("/materials/{}", i)));
     model.images = decodeImages(context, asset, looks.images, withImages);
 }
 

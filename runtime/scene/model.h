@@ -48,6 +48,10 @@ struct TextureUse {
 
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
+// What lies behind a front face: the inside of a solid up to the next back face; the same of a solid that is wound the other
+// way round; or nothing, where the triangles are an open sheet.
+enum class Shell : uint8_t { solid, flipped, sheet };
+
 struct Material {
     std::string name;
     glm::vec4 baseColor{1.0f};  // linear
@@ -60,6 +64,7 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::opaque;
     bool doubleSided = false;
     bool unlit = false;
+    Shell shell = Shell::solid;
     TextureUse baseColorTexture;
     TextureUse metallicRoughnessTexture;
     TextureUse normalTexture;

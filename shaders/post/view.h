@@ -51,7 +51,9 @@ uint kViewColor = 0,      // linear colour, sRGB-encoded
      kViewInteger = 7,    // any other integers: their low bits
      kViewValues = 8,     // four channels, stored as they are
      kViewHistory = 9,    // ao/common/temporal.comp's past: frames gathered
-     kViewRejected = 10;  // and where they begin anew
+     kViewRejected = 10,  // and where they begin anew
+     kViewThickness = 11,  // first channel as ao::DepthLayers has it
+     kViewSecondThickness = 12;  // second channel, likewise; first 0: nothing there
 
 OBSCURA_SHARED_END
 #endif

@@ -14,6 +14,9 @@ layout(push_constant) uniform Constants { ViewBlock view; };
 // Near is bright: an octave of distance is a fourteenth of the range, 1/8 m to 2 km.
 vec3 depthColor(float depth) { return vec3(clamp(1.0 - (log2(max(depth, 1e-6)) + 3.0) / 14.0, 0.0, 1.0)); }
 
+// Four decades, 1 mm to 10 m, from black to white.
+vec3 thicknessColor(float t) { return t <= 0.0 ? vec3(0.1, 0.25, 0.9) : t >= 65504.0 ? vec3(0.6, 0.1, 0.05) : vec3(clamp((log2(t) * 0.30103 + 3.0) / 4.0, 0.0, 1.0)); }
+
 vec3 valueOf(vec4 texel) {
     switch (view.mode) {
         case kViewColor: return encodeSrgb(clamp(texel.rgb, 0.0, 1.0));
@@ -22,7 +25,9 @@ vec3 valueOf(vec4 texel) {
             vec4 l = view.linearize;
             return texel.x <= 0.0 ? vec3(0.0) : depthColor((texel.x * l.x + l.y) / (texel.x * l.z + l.w));
         }
-        case kViewLinearDepth: return depthColor(texel.x);
+        case kViewLinearDepth: return texel.x <= 0.0 ? vec3(0.0) : depthColor(texel.x);
+        case kViewThickness: return thicknessColor(texel.x);
+        case kViewSecondThickness: return texel.x <= 0.0 ? vec3(0.0) : thicknessColor(texel.y);
         // Grey stands still; red is left-right, green up-down, 32 px saturate. A root shows small ones.
         case kViewMotion: return vec3(0.5 + 0.5 * sign(texel.xy) * sqrt(min(abs(texel.xy) / 32.0, 1.0)), 0.5);
         case kViewValues: return texel.rgb;

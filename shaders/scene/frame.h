@@ -16,7 +16,8 @@ OBSCURA_SHARED_SIZE(SceneFrame, 112);
 struct DrawItem {
     vec4 eye[3];       // object -> eye
     vec4 previous[3];  // object as it was last frame -> last frame's clip x, y, w
-    vec4 normal[3];    // object -> eye for normals; .w: [0] 1 when nothing moved (motion is exactly 0), [1] sign of the determinant
+    vec4 normal[3];    // object -> eye for normals; .w: [0] 1 when nothing moved (motion is exactly 0), [1] sign of the determinant,
+                       // [2] shell, see scene/face.glsl
 };
 OBSCURA_SHARED_SIZE(DrawItem, 144);
 

@@ -1,6 +1,7 @@
 // One opaque or masked surface into the G-buffer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "scene/face.glsl"
 #include "scene/frame.h"
 #include "scene/material.glsl"
 #include "scene/surface.glsl"
@@ -16,17 +17,17 @@ layout(location = 2) in vec4 inTangent;
 layout(location = 3) in vec4 inUv;
 layout(location = 4) in vec4 inColor;
 layout(location = 5) in vec3 inPrevious;
-layout(location = 6) flat in float inStill;
+layout(location = 6) flat in vec2 inFacts;
 
 layout(location = 0) out uint outGeometric;
 layout(location = 1) out uint outShaded;
 layout(location = 2) out vec2 outMotion;
 layout(location = 3) out vec4 outBaseColor;  // a: occlusion map
-layout(location = 4) out vec4 outMaterial;   // roughness, metalness, unlit, unused
+layout(location = 4) out vec4 outMaterial;   // roughness, metalness, unlit, face (face.glsl), the last in the guard band too
 layout(location = 5) out vec4 outEmission;
 
 vec2 motion() {
-    if (inStill > 0.5) return vec2(0.0);
+    if (inFacts.x > 0.5) return vec2(0.0);
     if (inPrevious.z <= 0.0) return vec2(kFarAway);  // was behind the camera: nothing to find there
     vec2 before = (inPrevious.xy / inPrevious.z + 1.0) * frame.viewport.zw;
     return clamp(before - gl_FragCoord.xy, -kFarAway, kFarAway);
@@ -44,7 +45,9 @@ void main() {
     outGeometric = packNormal(geometric);
     outMotion = motion();
     outShaded = outGeometric;
-    outBaseColor = outMaterial = outEmission = vec4(0.0);
+    outBaseColor = outEmission = vec4(0.0);
+    float face = float(faceOf(inFacts.y)) / 255.0;
+    outMaterial = vec4(0.0, 0.0, 0.0, face);
     bool full = shown();
     if (full || kMasked) {
         vec4 color = baseColorOf(inUv, inColor);
@@ -55,7 +58,7 @@ void main() {
         vec2 metalRough = metalRoughOf(inUv);
         outShaded = packNormal(normalOf(inUv, inNormal, inTangent, gl_FrontFacing ? 1.0 : -1.0));
         outBaseColor.a = occlusionOf(inUv);
-        outMaterial = vec4(metalRough.y, metalRough.x, material.flags.y != 0u ? 1.0 : 0.0, 0.0);
+        outMaterial = vec4(metalRough.y, metalRough.x, material.flags.y != 0u ? 1.0 : 0.0, face);
         outEmission = vec4(emissionOf(inUv), 1.0);
     }
 }

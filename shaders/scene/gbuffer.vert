@@ -16,7 +16,7 @@ layout(location = 2) out vec4 outTangent;
 layout(location = 3) out vec4 outUv;
 layout(location = 4) out vec4 outColor;
 layout(location = 5) out vec3 outPrevious;  // clip x, y, w
-layout(location = 6) flat out float outStill;
+layout(location = 6) flat out vec2 outFacts;  // 1 when nothing moved; shell
 
 invariant gl_Position;
 
@@ -26,7 +26,7 @@ void main() {
 
     vec4 q = vec4(inPrevious, 1.0);
     outPrevious = vec3(dot(DRAW.previous[0], q), dot(DRAW.previous[1], q), dot(DRAW.previous[2], q));
-    outStill = DRAW.normal[0].w;
+    outFacts = vec2(DRAW.normal[0].w, DRAW.normal[2].w);
 
     outNormal = vec3(dot(DRAW.normal[0].xyz, inNormal), dot(DRAW.normal[1].xyz, inNormal), dot(DRAW.normal[2].xyz, inNormal));
     outTangent.xyz = vec3(dot(DRAW.eye[0].xyz, inTangent.xyz), dot(DRAW.eye[1].xyz, inTangent.xyz), dot(DRAW.eye[2].xyz, inTangent.xyz));

@@ -18,10 +18,14 @@ class OracleTest : public MethodTest {
 protected:
     using MethodTest::MethodTest;
 
+    fs::path folder() const {
+        const char* named = std::getenv("OBSCURA_ORACLE");
+        return named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
+    }
+
     // name: "corner"; channel: "world.linear_1.5", of NAME.reference.exr. Metrics of obscurance over the valid visible pixels.
     truth::Metrics measure(const std::string& name, const ao::Values& values, const char* falloff, const std::string& channel) {
-        const char* named = std::getenv("OBSCURA_ORACLE");
-        const fs::path folder = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
+        const fs::path folder = this->folder();
         if (!fs::exists(folder / (name + ".json"))) skip("no " + (folder / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
 
         const truth::CapturedFrame captured = truth::readCapture(folder / name);

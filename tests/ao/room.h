@@ -19,6 +19,8 @@ struct Room {
     float wall = 0.0f;             // z of a wall that faces the camera; 0: none
     std::vector<float> depth;      // linear, 1e4 where nothing is
     std::vector<float> normals;    // xyz0
+    std::vector<float> thickness;  // depth layers, where there are any: see ao::DepthLayers
+    std::vector<float> second;     // depth and thickness, of every pixel or every other one
     float projection[16] = {};
     ao::Volume volume;             // around the camera, its buffer left out
     std::vector<uint32_t> bits;    // of the volume: every cell that the floor's or the wall's plane touches
@@ -85,6 +87,17 @@ struct Room {
         return result;
     }
 
+    VkExtent2D secondSize() const {
+        return second.size() == thickness.size() * 2 ? VkExtent2D{width, height} : VkExtent2D{(width + 1) / 2, (height + 1) / 2};
+    }
+    gpu::Image layer(gpu::Device& device, bool ofSecond) const {
+        const VkExtent2D size = ofSecond ? secondSize() : VkExtent2D{width, height};
+        gpu::Image result;
+        EXPECT_EQ(gpu::Image::create(device, {ofSecond ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32_SFLOAT, size.width, size.height, 1, 1,
+                                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}, "layer", result), gpu::Status::ok);
+        EXPECT_EQ(gpu::upload(device, result, std::as_bytes(std::span(ofSecond ? second : thickness)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
+        return result;
+    }
     gpu::Image image(gpu::Device& device, bool ofNormals) const {
         gpu::Image result;
         EXPECT_EQ(gpu::Image::create(device, {ofNormals ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_SFLOAT, width, height, 1, 1,

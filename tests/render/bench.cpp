@@ -75,7 +75,7 @@ render::FrameOptions Bench::options() const {
 
 Picture Bench::render(const scene::World& world, const render::FrameOptions& options) {
     Picture picture;
-    Readback backs[5];
+    Readback backs[7];
     device().nextFrame();
     m_graph->begin();
     const render::Outputs out = m_renderer->add(*m_graph, world, options);
@@ -84,10 +84,13 @@ Picture Bench::render(const scene::World& world, const render::FrameOptions& opt
     copyOut(*m_graph, out.depth, backs[2], picture.depth);
     copyOut(*m_graph, out.normals, backs[3], picture.normals);
     copyOut(*m_graph, out.motion, backs[4], picture.motion);
+    if (out.layers.thickness) copyOut(*m_graph, out.layers.thickness, backs[5], picture.thickness);
+    if (out.layers.second) copyOut(*m_graph, out.layers.second, backs[6], picture.second);
     gpu::Status executed = gpu::Status::ok;
     const gpu::Status ran = device().runNow([&](VkCommandBuffer cmd) { executed = m_graph->execute(cmd); });
     if (executed != gpu::Status::ok || ran != gpu::Status::ok) throw std::runtime_error("the frame did not run\n" + allLogged());
-    for (const Readback& back : backs) std::memcpy(back.target->bytes.data(), back.buffer.mapped(), back.target->bytes.size());
+    for (const Readback& back : backs)
+        if (back.target) std::memcpy(back.target->bytes.data(), back.buffer.mapped(), back.target->bytes.size());
     picture.size = {picture.depth.width, picture.depth.height};
     picture.guard = {(picture.depth.width - picture.color.width) / 2, (picture.depth.height - picture.color.height) / 2};
     return picture;

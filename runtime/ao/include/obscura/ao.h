@@ -138,6 +138,15 @@ struct Volume {
     float cellFromEye[16] = {};          // eye space -> cells from that cell's lowest corner, columns; turns, moves and scales evenly
 };
 
+// What lies behind the visible surface along each pixel's view ray, for the methods with a parameter `depth_layers`, which says how much
+// of this they read. Bring what you have: both, the first image alone, or neither. Linear depths, metres.
+struct DepthLayers {
+    ImageView thickness;                 // `Frame::size`; one float (R16F will do), sampled usage: from the visible surface to where the
+                                         // solid it belongs to ends. 0: an open sheet, as thick as the method thinks. 65504: endless
+    ImageView second;                    // the next surface behind that: its depth, 0 where there is none, and its thickness, likewise;
+    VkExtent2D secondSize{};             // two floats (RG32F, RG16F), sampled usage. Frame::size, or half of it rounded up: texel p is
+};                                       // then that of pixel 2p
+
 struct Frame {
     VkExtent2D size{};                   // of depth and normals, guard band included
     VkExtent2D guard{};                  // px on each side that are read but not shown; visible = size - 2 guard
@@ -152,6 +161,7 @@ struct Frame {
     float motionScale[2] = {1, 1};       // motion times this: px from here to last frame's position, y down. Motion in UV:
                                          // {width, height}; in NDC with y up: {width/2, -height/2}; from the past: negated
     bool cut = false;                    // first frame after a jump: last frame's picture is no past of this one
+    DepthLayers layers;                  // optional
     Volume volume;                       // optional
     float skyDepth = 0.0f;               // linear depths from here on are sky; 0: what the projection's far plane says
     uint64_t index = 0;                  // counts frames

@@ -1,0 +1,94 @@
+// Obscurance that is known: beside an endless wall, behind a pillar, behind a board that hides another.
+#include "layered/solids.h"
+
+namespace obscura::test {
+namespace {
+
+using Kind = Solid::Kind;
+constexpr const char* kRamp = "ramp:0.385:1";
+
+// Of a floor point `a` metres from an endless wall: the mean over cosine directions of rho(a / d_x).
+double exactAtWall(double a) {
+    ao::Falloff rho;
+    ao::parseFalloff(kRamp, rho);
+    const int n = 1000;
+    double sum = 0.0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double across = std::cos((i + 0.5) / n * 3.14159265358979 - 1.570796326794897) * std::sqrt((j + 0.5) / n);
+            sum += ao::evaluate(rho, float(a / across));
+        }
+    return sum / (2.0 * n * n);
+}
+
+TEST_F(LayeredTest, anEndlessWallIsFoundAtEveryDistance) {
+    // What the integral gives is what others computed: a check of the check.
+    for (const auto& [a, exact] : {std::pair{0.10, 0.4017}, {0.25, 0.2610}, {0.50, 0.0845}, {0.75, 0.0133}}) EXPECT_NEAR(exactAtWall(a), exact, 5e-4);
+    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 384, 216, 32);
+    for (const auto& [changes, preset, tolerance] : {std::tuple{Changes{{"steps", 4}}, "default", 0.012}, {Changes{}, "default", 0.011}, {Changes{}, "reference", 0.004}}) {
+        const Picture picture = run(room, values(changes, preset), kRamp);
+        std::vector<double> off;  // row by row
+        for (uint32_t y = 0; y < room.visibleHeight(); ++y) {
+            const size_t i = size_t(y + room.guard) * room.width + room.width / 2;
+            const double a = 5.0 - room.depth[i];
+            if (room.normals[4 * i + 1] < 0.5f || a < 0.08 || a > 1.1) continue;
+            double sum = 0.0;
+            for (uint32_t x = room.visibleWidth() / 4; x < 3 * room.visibleWidth() / 4; ++x) sum += picture[size_t(y) * room.visibleWidth() + x];
+            off.push_back(sum / (room.visibleWidth() / 2) - exactAtWall(a));
+            // Four rows hold the whole noise.
+            if (off.size() >= 4) EXPECT_NEAR((off.end()[-1] + off.end()[-2] + off.end()[-3] + off.end()[-4]) / 4, 0.0, tolerance) << a << " m from the wall, " << preset;
+        }
+        EXPECT_GT(off.size(), 10u);
+    }
+}
+
+// Error and bias on the wall's pixels in |x| < 0.8, |y| < 0.8, every other of each axis.
+struct Errors { double eA = 0.0, bias = 0.0, reference = 0.0; };
+Errors onWall(const Room& room, const Picture& picture, const std::vector<Solid>& world) {
+    ao::Falloff rho;
+    ao::parseFalloff(kRamp, rho);
+    Errors result;
+    int count = 0;
+    for (uint32_t y = 0; y < room.visibleHeight(); y += 3)
+        for (uint32_t x = 0; x < room.visibleWidth(); x += 3) {
+            const glm::vec3 p = pointAt(room, x + room.guard, y + room.guard);
+            const size_t i = size_t(y + room.guard) * room.width + x + room.guard;
+            if (p.z > -7.99f || std::abs(p.x) > 0.8f || std::abs(p.y) > 0.8f || room.normals[4 * i + 2] < 0.9f) continue;
+            const double exact = worldObscurance(world, p, {0, 0, 1}, rho, 2000), off = double(picture[size_t(y) * room.visibleWidth() + x]) - exact;
+            result.eA += std::abs(off);
+            result.bias += off;
+            result.reference += exact;
+            ++count;
+        }
+    EXPECT_GT(count, 60);
+    result.eA /= count;
+    result.bias /= count;
+    result.reference /= count;
+    return result;
+}
+
+TEST_F(LayeredTest, aPillarShadesTheWallBehindItByItsBack) {
+    const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {0, 0, -7.4f}, {0.1f, 0, 0}}};
+    const Room room = frameOf(world, 512, 296, 32);
+    const Errors layered = onWall(room, run(room, values({}, "quality"), kRamp), world);
+    const Errors endless = onWall(room, run(room, values({{"depth_layers", 0}, {"thickness", 1000}}, "quality"), kRamp), world);
+    EXPECT_NEAR(layered.reference, 0.0412, 0.006);
+    EXPECT_LT(layered.eA, 0.010);
+    EXPECT_LT(std::abs(layered.bias), 0.010);
+    EXPECT_GT(endless.bias, 0.03);
+    const Room half = frameOf(world, 512, 296, 32, true);
+    EXPECT_LT(onWall(half, run(half, values({}, "quality"), kRamp), world).eA, 0.010);
+}
+
+TEST_F(LayeredTest, aBoardBehindABoardStillShadesTheWall) {
+    // The second board is seen past the first by nobody but through the second layer.
+    const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::box, {0, 0, -6.6f}, {0.4f, 5, 0.05f}}, {Kind::box, {0, 0, -7.7f}, {0.5f, 5, 0.05f}}};
+    const Room room = frameOf(world, 512, 296, 32);
+    const Errors two = onWall(room, run(room, values({}, "reference"), kRamp), world), one = onWall(room, run(room, values({{"depth_layers", 1}}, "reference"), kRamp), world);
+    EXPECT_LT(two.eA, 0.3 * one.eA);
+    EXPECT_LT(two.eA, 0.012);
+    EXPECT_LT(one.bias, -0.02);
+}
+
+}  // namespace
+}  // namespace obscura::test

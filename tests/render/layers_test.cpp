@@ -1,0 +1,247 @@
+// Depth layers: what lies behind the visible surface, drawn by either form, of everything that can be drawn.
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "bench.h"
+#include "scene/pose.h"
+
+namespace obscura::test {
+namespace {
+
+constexpr float kNear = 0.05f;
+
+float depthAt(const Picture& picture, uint32_t x, uint32_t y) {  // linear; 0: nothing there
+    const float d = picture.depth.at<float>(x, y);
+    return d > 0.0f ? kNear / d : 0.0f;
+}
+float thicknessAt(const Picture& picture, uint32_t x, uint32_t y) { return glm::unpackHalf1x16(picture.thickness.at<uint16_t>(x, y)); }
+
+class Layers : public GpuTest {
+protected:
+    Picture draw(const scene::World& world, ao::LayerUse use, render::LayerForm form, const std::function<void(render::FrameOptions&)>& change = {}) {
+        m_values.set("depth_layers", float(use));
+        render::FrameOptions options = m_bench.options();
+        options.method = &m_values;
+        options.camera.nearPlane = kNear;
+        options.view = render::View::visibility;
+        options.layerForm = form;
+        options.cut = true;
+        if (change) change(options);
+        return m_bench.render(world, options);
+    }
+    Picture draw(const scene::World& world) { return draw(world, ao::LayerUse::second, render::LayerForm::best); }
+
+    Bench m_bench;
+    ao::Values m_values{*ao::findMethod("layered")};
+};
+
+scene::World mixedWorld() {
+    scene::World world;
+    world.add(instanceOf(turningCube(), {-0.9f, 0.2f, 0.3f}));
+    world.add(instanceOf(bendingBar(), {0.9f, 0, -0.5f}));
+    world.add(instanceOf(wavingPatch(), {0, 0.3f, -1.5f}));
+    world.add(instanceOf(floorPlate(), {0, -0.8f, 0}));
+    scene::Instance mirrored = instanceOf(turningCube(), {0.0f, 0.9f, 0.0f});
+    mirrored.placement = mirrored.placement * glm::scale(glm::mat4(1.0f), glm::vec3(-0.4f, 0.4f, 0.4f));
+    world.add(mirrored);
+    return world;
+}
+
+scene::World oneWorld(std::shared_ptr<const scene::Model> model) {
+    scene::World world;
+    world.add(instanceOf(std::move(model)));
+    return world;
+}
+
+// Pixels where something is, and how many of them have a thickness above zero, none, or are endless.
+struct Counts { size_t covered = 0, thick = 0, sheet = 0; };
+Counts count(const Picture& picture) {
+    Counts result;
+    for (uint32_t y = 0; y < picture.size.height; ++y)
+        for (uint32_t x = 0; x < picture.size.width; ++x) {
+            if (depthAt(picture, x, y) == 0.0f) continue;
+            ++result.covered;
+            const float t = thicknessAt(picture, x, y);
+            result.thick += t > 0.0f && t < 100.0f;
+            result.sheet += t == 0.0f;
+        }
+    return result;
+}
+
+TEST_F(Layers, theThicknessOfACubeIsThatOfTheCube) {
+    const scene::World world = oneWorld(turningCube());
+    render::FrameOptions camera = m_bench.options();
+    const Picture picture = draw(world);
+    const scene::Instance& instance = world.instances()[0];
+    const glm::mat4 toCube = glm::inverse(instance.placement * scene::evaluate(*instance.model, instance.animation, 0.0f).world[0]);
+    const glm::mat4 toWorld = glm::inverse(camera.camera.view());
+    const glm::vec2 size(picture.size.width, picture.size.height);
+    const glm::mat4 lens = camera.camera.projection(size, glm::vec2(320, 240));
+    size_t covered = 0;
+    for (uint32_t y = 0; y < picture.size.height; ++y)
+        for (uint32_t x = 0; x < picture.size.width; ++x) {
+            const float z = depthAt(picture, x, y);
+            if (z == 0.0f) continue;
+            const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / size * 2.0f - 1.0f;
+            const glm::vec3 ray(ndc.x / lens[0][0], ndc.y / lens[1][1], -1.0f);
+            const glm::vec3 o = glm::vec3(toCube * toWorld * glm::vec4(0, 0, 0, 1)), d = glm::mat3(toCube) * glm::mat3(toWorld) * ray;
+            const glm::vec3 a = (glm::vec3(-0.5f) - o) / d, b = (glm::vec3(0.5f) - o) / d, near = glm::min(a, b), far = glm::max(a, b);
+            const float in = std::max({near.x, near.y, near.z}), out = std::min({far.x, far.y, far.z});
+            if (out - in < 0.02f) continue;  // edges through pixel centres
+            EXPECT_NEAR(z, in, 1e-3f);
+            EXPECT_NEAR(thicknessAt(picture, x, y), out - in, 2e-3f) << x << " " << y;
+            ++covered;
+        }
+    EXPECT_GT(covered, 3000u);
+}
+
+TEST_F(Layers, surfacesComeInOrder) {
+    const Picture picture = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.35f; });
+    size_t seconds = 0, solids = 0;
+    for (uint32_t y = 0; y < picture.size.height; ++y)
+        for (uint32_t x = 0; x < picture.size.width; ++x) {
+            const float z = depthAt(picture, x, y), t = thicknessAt(picture, x, y);
+            const glm::vec2 second = picture.second.at<glm::vec2>(x, y);
+            if (z == 0.0f) { EXPECT_EQ(t, 65504.0f); continue; }
+            EXPECT_GE(t, 0.0f);
+            EXPECT_GE(second.y, 0.0f);
+            solids += t > 0.0f;
+            if (second.x == 0.0f) continue;
+            ++seconds;
+            EXPECT_GE(second.x * 1.001f, z + t) << x << " " << y;
+            EXPECT_GT(second.x, z);
+        }
+    EXPECT_GT(solids, 5000u);
+    EXPECT_GT(seconds, 4000u);
+}
+
+TEST_F(Layers, bothFormsSeeTheSame) {
+    if (!device().caps().fragmentWrites) skip("the device's fragment shaders do not write");
+    for (const float time : {0.0f, 0.35f, 0.8f}) {
+        const auto at = [&](render::FrameOptions& o) { o.time = time; };
+        const Picture peeled = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::peeling, at);
+        const Picture climbed = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::ladder, at);
+        size_t thicknesses = 0, seconds = 0;
+        for (uint32_t y = 0; y < peeled.size.height; ++y)
+            for (uint32_t x = 0; x < peeled.size.width; ++x) {
+                thicknesses += thicknessAt(peeled, x, y) != thicknessAt(climbed, x, y);
+                seconds += peeled.second.at<glm::vec2>(x, y) != climbed.second.at<glm::vec2>(x, y);
+            }
+        // Where faces meet, two depths may agree in all 16 digits that are kept.
+        EXPECT_LT(thicknesses, 5u) << time;
+        EXPECT_LT(seconds, 5u) << time;
+    }
+}
+
+TEST_F(Layers, halfSizeIsEveryOtherPixel) {
+    for (const render::LayerForm form : {render::LayerForm::peeling, render::LayerForm::ladder}) {
+        const auto odd = [](render::FrameOptions& o) { o.visible = {301, 199}; };
+        const Picture whole = draw(mixedWorld(), ao::LayerUse::second, form, odd), half = draw(mixedWorld(), ao::LayerUse::secondHalf, form, odd);
+        EXPECT_EQ(whole.thickness, half.thickness);
+        EXPECT_EQ(half.second.width, (whole.second.width + 1) / 2);
+        size_t different = 0, there = 0;
+        for (uint32_t y = 0; y < half.second.height; ++y)
+            for (uint32_t x = 0; x < half.second.width; ++x) {
+                const glm::vec2 a = whole.second.at<glm::vec2>(2 * x, 2 * y), b = half.second.at<glm::vec2>(x, y);
+                there += a.x > 0.0f;
+                different += std::abs(a.x - b.x) > 2e-3f * a.x || std::abs(a.y - b.y) > 5e-3f;
+            }
+        EXPECT_GT(there, 500u);
+        EXPECT_LT(different, there / 100) << int(form);  // edges through pixel centres
+    }
+}
+
+TEST_F(Layers, closedThingsAreSolidHoweverTheyMove) {
+    scene::World mirrored;
+    scene::Instance cube = instanceOf(turningCube());
+    cube.placement = glm::scale(glm::mat4(1.0f), glm::vec3(-1.0f, 1.0f, 1.0f));
+    mirrored.add(cube);
+    for (const scene::World& world : {oneWorld(turningCube()), mirrored, oneWorld(bendingBar())}) {
+        const Counts counts = count(draw(world, ao::LayerUse::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.7f; }));
+        EXPECT_GT(counts.covered, 2000u);
+        EXPECT_GT(double(counts.thick), 0.98 * double(counts.covered));
+    }
+}
+
+TEST_F(Layers, openThingsAreSheetsWhatever) {
+    for (const auto& model : {wavingPatch(), floorPlate()}) {
+        const Counts counts = count(draw(oneWorld(model)));
+        EXPECT_GT(counts.covered, 2000u);
+        EXPECT_EQ(counts.sheet, counts.covered);
+    }
+    // Seen from behind, with a solid's back face next.
+    scene::Material both;
+    both.doubleSided = true;
+    scene::World world = oneWorld(with(wavingPatch(), both));
+    const Counts behind = count(draw(world, ao::LayerUse::second, render::LayerForm::best, [](render::FrameOptions& o) { o.camera.eye.z = -o.camera.eye.z; }));
+    EXPECT_GT(behind.covered, 2000u);
+    EXPECT_EQ(behind.sheet, behind.covered);
+}
+
+TEST_F(Layers, materialsSayWhatTheyAre) {
+    scene::Material sheet;
+    sheet.shell = scene::Shell::sheet;
+    const Counts open = count(draw(oneWorld(with(turningCube(), sheet))));
+    EXPECT_GT(open.covered, 2000u);
+    EXPECT_EQ(open.sheet, open.covered);
+
+    const auto wrong = [](scene::Shell shell) {  // wound inside out
+        scene::Material material;
+        material.doubleSided = true;
+        material.shell = shell;
+        auto model = with(turningCube(), material);
+        auto& indices = model->meshes[0].primitives[0].indices;
+        for (size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
+        return model;
+    };
+    const Counts untold = count(draw(oneWorld(wrong(scene::Shell::solid)))), told = count(draw(oneWorld(wrong(scene::Shell::flipped))));
+    EXPECT_EQ(untold.sheet, untold.covered);
+    EXPECT_GT(double(told.thick), 0.98 * double(told.covered));
+}
+
+TEST_F(Layers, holesAreSeenThrough) {
+    for (const render::LayerForm form : {render::LayerForm::peeling, render::LayerForm::ladder}) {
+        const auto world = [](float alpha) {
+            scene::Material masked;
+            masked.alphaMode = scene::AlphaMode::mask;
+            masked.baseColor.a = alpha;
+            scene::World result;
+            result.add(instanceOf(turningCube(), {0, 0, 0.5f}));
+            result.add(instanceOf(with(turningCube(), masked), {0.1f, 0, -1.5f}));
+            return result;
+        };
+        const Picture holes = draw(world(0.2f), ao::LayerUse::second, form), there = draw(world(0.8f), ao::LayerUse::second, form);
+        size_t behind = 0;
+        for (uint32_t y = 0; y < there.size.height; ++y)
+            for (uint32_t x = 0; x < there.size.width; ++x) {
+                EXPECT_EQ(holes.second.at<glm::vec2>(x, y).x, 0.0f);
+                behind += there.second.at<glm::vec2>(x, y).x > 0.0f && there.second.at<glm::vec2>(x, y).y > 0.0f;
+            }
+        EXPECT_GT(behind, 200u);
+    }
+}
+
+TEST_F(Layers, theGuardBandHasThemToo) {
+    const auto guard = [](float fraction) { return [fraction](render::FrameOptions& o) { o.guard = fraction; }; };
+    const Picture bare = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, guard(0.0f));
+    const Picture guarded = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, guard(0.2f));
+    size_t different = 0;
+    for (uint32_t y = 0; y < 240; ++y)
+        for (uint32_t x = 0; x < 320; ++x) different += std::abs(thicknessAt(bare, x, y) - thicknessAt(guarded, x + 64, y + 48)) > 3e-3f;
+    EXPECT_LT(different, 60u);  // edges through pixel centres
+    size_t solid = 0;
+    for (uint32_t y = 0; y < guarded.size.height; ++y)
+        for (uint32_t x = 0; x < 64; ++x) solid += thicknessAt(guarded, x, y) != 65504.0f;
+    EXPECT_GT(solid, 1000u);
+}
+
+TEST_F(Layers, nobodyElsePaysForThem) {
+    const ao::Values hbao(*ao::findMethod("hbao"));
+    const Picture picture = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, [&](render::FrameOptions& o) { o.method = &hbao; });
+    EXPECT_TRUE(picture.thickness.bytes.empty());
+}
+
+}  // namespace
+}  // namespace obscura::test
