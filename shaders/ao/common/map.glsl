@@ -24,7 +24,7 @@ ivec2 receiverOf(View view, ivec2 p, int every) {
 }
 
 // Three numbers in [0,1) from a lattice cell [Jarzynski and Olano 2020, pcg3d].
-vec3 latticeNoise(ivec3 cell) {
+vec3 cellNoise(ivec3 cell) {
     uvec3 v = uvec3(cell) * 1664525u + 1013904223u;
     v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
     v ^= v >> 16u;

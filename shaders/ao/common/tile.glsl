@@ -15,7 +15,7 @@ uint shareOf(View view, ivec2 pixel, uint side) {
 }
 
 // Noise in [0,1) for pixels that share: a lattice [Roberts 2018] whose period is no tile's, or a direction would always have the same.
-vec3 latticeNoise(ivec2 pixel) {
+vec3 pixelNoise(ivec2 pixel) {
     return fract(float(pixel.x & 1023) * vec3(0.7548776662, 0.8191725134, 0.8566748839) + float(pixel.y & 1023) * vec3(0.5698402910, 0.6710436067, 0.7338918566));
 }
 

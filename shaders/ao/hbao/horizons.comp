@@ -69,7 +69,7 @@ void main() {
     float reach = min(rho.reach * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z), maxPixels);
     int tile = (texel.y & 3) * 4 + (texel.x & 3);
     vec3 shift = frameShift(view);
-    vec2 noise = side > 1u ? latticeNoise(p).xy : (vec2(kRotation[tile], kOffset[tile]) + 0.5) / 16.0;
+    vec2 noise = side > 1u ? pixelNoise(p).xy : (vec2(kRotation[tile], kOffset[tile]) + 0.5) / 16.0;
     float rotation = fract(noise.x + shift.x);
     float offset = fract(noise.y + shift.y);
     float stepPixels = max(reach / float(steps), 1.0);

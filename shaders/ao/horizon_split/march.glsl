@@ -31,7 +31,7 @@ struct Noise {  // each in [0,1)
 };
 Noise noiseAt(View view, ivec2 texel) {
     int tile = (texel.y & 3) * 4 + (texel.x & 3);
-    vec3 noise = side > 1u ? latticeNoise(texel) : (vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0;
+    vec3 noise = side > 1u ? pixelNoise(texel) : (vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0;
     noise = fract(noise + frameShift(view));
     return Noise(noise.x, noise.y, noise.z);
 }

@@ -55,7 +55,7 @@ void main() {
     vec3 receiver = cellOf(volume, here);
     vec3 origin = receiver + offsetCells * normal;
     // Noise of the place, not of the pixel: it rests on the surface while the camera moves.
-    vec3 xi = fract(latticeNoise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
+    vec3 xi = fract(cellNoise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
     vec3 tangent, bitangent;
     around(normal, tangent, bitangent);
 
