@@ -14,15 +14,6 @@ constexpr uint32_t kMostPixels = 256 * 256;
 constexpr uint32_t kLargestStep = 31;
 constexpr size_t kKept = 600;
 
-glm::vec3 unpackNormal(uint32_t bits) {  // shaders/shared/octahedral.glsl
-    const glm::vec2 e = glm::unpackSnorm2x16(bits);
-    glm::vec3 n(e.x, e.y, 1.0f - std::abs(e.x) - std::abs(e.y));
-    const float t = std::max(-n.z, 0.0f);
-    n.x -= n.x >= 0.0f ? t : -t;
-    n.y -= n.y >= 0.0f ? t : -t;
-    return glm::normalize(n);
-}
-
 bool sameCamera(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY && a.orthoHalfHeight == b.orthoHalfHeight;
 }
@@ -82,7 +73,7 @@ Measures::Past::Seen Measures::Past::decode(const Frame& frame, const std::vecto
         float depth;
         std::memcpy(&depth, &texel[1], sizeof depth);
         seen.captured.depth[i] = std::min(depth, seen.captured.skyDepth);
-        if (!seen.captured.isSky(i)) seen.captured.normals[i] = unpackNormal(texel[2]);
+        if (!seen.captured.isSky(i)) seen.captured.normals[i] = truth::unpackNormal(texel[2]);
         seen.motion[i] = glm::unpackHalf2x16(texel[3]) / float(frame.step);
     }
     seen.visible = seen.captured.visibleMask();

@@ -87,10 +87,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--preset", preset, "Preset of that method")->group(kPicture);
     cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
         ->group(kPicture)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)")
-        ->group(kPicture);
+    cli.add_option("--offscreen", offscreen, app::kOffScreenHelp)->group(kPicture);
     cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kPicture);
-    cli.add_option("--view", view, "final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, voxels, voxel-slice, difference, signed-difference, history, rejected, or pass:NAME")
+    std::vector<std::string> views;
+    for (const render::View known : render::kViews) views.emplace_back(render::name(known));
+    cli.add_option("--view", view, fmt::format("{}, or pass:NAME", fmt::join(views, ", ")))
         ->group(kPicture)->capture_default_str();
     cli.add_option("--compare", compare, "METHOD[:PRESET][,PARAMETER=VALUE...]: a second setting B on the same frames, shown right of a divider")->group(kPicture);
     cli.add_option("--split", options.split, "Where the divider stands, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
@@ -184,9 +185,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     for (const std::string& assignment : assignments) options.choice.assign(assignment);
     if (!falloff.empty()) options.choice.setFalloff(falloff);
     if (!render::parseView(view, options.view, options.passView)) {
-        std::vector<std::string> names;
-        for (const render::View known : render::kViews) names.emplace_back(render::name(known));
-        throw Complaint(fmt::format("--view {}: no such view; {}, pass:NAME", view, app::choices(view, names)));
+        throw Complaint(fmt::format("--view {}: no such view; {}, pass:NAME", view, app::choices(view, views)));
     }
     if (!compare.empty()) options.compare.emplace().read(compare);
     if (render::isDifference(options.view) && !options.compare) throw Complaint(fmt::format("--view {}: of what? name a second method with --compare", view));

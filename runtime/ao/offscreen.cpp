@@ -1,6 +1,7 @@
 #include "ao/offscreen.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace obscura::ao {
 namespace {
@@ -23,8 +24,8 @@ constexpr float kFarthest = 1e18f;  // its square is a float
 }  // namespace
 
 Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out) {
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace) != gpu::Status::ok) return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_traceGrid) != gpu::Status::ok) return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace[0]) != gpu::Status::ok) return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_trace[1]) != gpu::Status::ok) return Status::shaderError;
     return Upsample::create(device, shaders, out.m_upsample);
 }
 
@@ -32,8 +33,8 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
                                   const OffScreenSettings& settings) {
     if (settings.what == OffScreen::off) return visibility;
     if (!inputs.volume) {
-        if (!m_said) graph.device().log(gpu::Severity::warning, "offscreen: the frame brings no volume, so only what the picture shows is counted");
-        m_said = true;
+        if (!std::exchange(m_said, true))
+            graph.device().log(gpu::Severity::warning, "offscreen: the frame brings no volume, so only what the picture shows is counted");
         return visibility;
     }
     const auto& visible = inputs.view.visible;
@@ -42,8 +43,8 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
     const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
                       std::min(blocking.reach, kFarthest), blocking.thickness};
-    graph.pass("offscreen.trace", inputs.volume.structure == VolumeStructure::dense ? m_trace : m_traceGrid).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
-        .read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
+    graph.pass("offscreen.trace", m_trace[size_t(inputs.volume.structure)]).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits)
+        .read(inputs.depth).read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
     return m_upsample.add(graph, inputs, {map, receivers}, {kScale, kWindow, kRange * inputs.falloff.reach}, "offscreen", visibility);
 }
 

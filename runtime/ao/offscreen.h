@@ -26,7 +26,7 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const Blocking& blocking, const OffScreenSettings& settings);
 
 private:
-    gpu::Program m_trace, m_traceGrid;
+    gpu::Program m_trace[2];  // by structure
     Upsample m_upsample;
     bool m_said = false;
 };

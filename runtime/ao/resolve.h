@@ -46,8 +46,9 @@ struct TemporalSettings {
     float history = 0.9f;         // most weight of the past, 0 (off) to 0.98
     float depthTolerance = 0.02f; // how far off the surface's plane a past pixel may lie, in its depths [Hoang 2012, eps]
     float normalTolerance = 0.9f; // least cosine between the normals; -1: any
-    float clip = 1.5f;            // past beyond so many standard deviations of the 3x3 around is drawn in: occluders that
-                                  // move leave no trail on receivers that do not. 0: off, as in the papers
+    float clip = 1.5f;            // past beyond so many standard deviations of the present is drawn in: occluders that move leave no
+                                  // trail on receivers that do not. They are of 3x3 pixels, two apart, off their slope. 0: off, as
+                                  // in the papers
     float clipFloor = 0.01f;      // and this much visibility more
 };
 

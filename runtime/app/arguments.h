@@ -16,6 +16,9 @@ namespace obscura::app {
 std::vector<float> numbers(const std::string& text, char separator);
 // "1280x720", px; throws Complaint that says how a size is written.
 glm::uvec2 sizeOf(const std::string& text);
+// What --offscreen says of itself in every program.
+inline constexpr const char* kOffScreenHelp =
+    "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)";
 // Reads the command line. False: it asked for help or the version, which is printed. What CLI11 finds wrong is thrown as a
 // Complaint that adds what to do.
 bool parse(CLI::App& cli, int argc, const char* const* argv);

@@ -48,6 +48,7 @@ Status Device::finish() {
     m_caps.type = properties.deviceType;
     m_caps.software = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     m_caps.maxImageSize = properties.limits.maxImageDimension2D;
+    m_caps.maxStorageRange = properties.limits.maxStorageBufferRange;
     m_caps.timestampPeriod = properties.limits.timestampPeriod;
     m_caps.debugUtils = m_vk.SetDebugUtilsObjectNameEXT && m_vk.CmdBeginDebugUtilsLabelEXT && m_vk.CmdEndDebugUtilsLabelEXT;
     if (properties.apiVersion < VK_API_VERSION_1_3) return Status::unsupported;

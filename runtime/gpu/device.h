@@ -57,6 +57,7 @@ struct Caps {
     bool fragmentWrites = false;      // fragment shaders may write images and use atomics; unknown, so false, on adopted devices
     float maxAnisotropy = 1.0f;       // 1 where the feature is off
     uint32_t maxImageSize = 4096;     // pixels a side, 2D
+    uint64_t maxStorageRange = 1u << 27;  // bytes that a storage buffer's binding may span
 };
 
 enum class Filter : uint8_t { nearest, linear };

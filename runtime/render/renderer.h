@@ -48,7 +48,7 @@ struct VoxelSlice {
     std::optional<float> at;  // metres along it; none: where the camera is
 };
 
-// How depth layers are drawn, for methods that read them: `best` is what the device does in less time.
+// How depth layers are drawn, for methods that read them. `best`: in one pass where the device's fragment shaders may write, else peeled.
 enum class LayerForm : uint8_t { best, peeling, ladder };
 
 struct FrameOptions {

@@ -59,8 +59,8 @@ gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp", {}, out.m_split);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/difference.comp", {}, out.m_difference);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/samples.comp", {}, out.m_samples);
-    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view.comp", {}, out.m_voxels);
-    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view_nanovdb.comp", {}, out.m_grid);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view.comp", {}, out.m_voxels[0]);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view_nanovdb.comp", {}, out.m_voxels[1]);
     return status;
 }
 
@@ -144,8 +144,8 @@ graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao
         constants.layer = volume.cellFromEye[12 + axis] + (slice->at ? (*slice->at - eye[axis]) / block.anchor.w : 0.0f);
     }
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
-    graph.pass("voxels.view", volume.structure == ao::VolumeStructure::dense ? m_voxels : m_grid).read(graph.upload("view", frame)).read(graph.upload("volume", block)).read(bits).write(picture).constants(constants)
-        .dispatch(frame.visible.x, frame.visible.y);
+    graph.pass("voxels.view", m_voxels[size_t(volume.structure)]).read(graph.upload("view", frame)).read(graph.upload("volume", block)).read(bits)
+        .write(picture).constants(constants).dispatch(frame.visible.x, frame.visible.y);
     return picture;
 }
 

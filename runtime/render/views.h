@@ -31,7 +31,7 @@ public:
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
-    gpu::Program m_float, m_uint, m_split, m_difference, m_samples, m_voxels, m_grid;
+    gpu::Program m_float, m_uint, m_split, m_difference, m_samples, m_voxels[2];  // the last by the volume's structure
 };
 
 }  // namespace obscura::render

@@ -25,14 +25,12 @@ bool meets(const scene::Bounds& box, const voxel::Change& where) {
 
 gpu::Status VoxelRaster::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelRaster& out) {
     out.m_device = &device;
-    VkPhysicalDeviceProperties properties;
-    device.vk().GetPhysicalDeviceProperties(device.physical(), &properties);
-    out.m_largest = properties.limits.maxStorageBufferRange;
     return gpu::Program::compute(device, shaders, "voxel/rasterise.comp", {}, out.m_program);
 }
 
 bool VoxelRaster::bindable(const ModelGpu& model) {
-    if (model.vertices.bytes() <= m_largest && model.indices.bytes() <= m_largest) return true;
+    const uint64_t most = m_device->caps().maxStorageRange;
+    if (model.vertices.bytes() <= most && model.indices.bytes() <= most) return true;
     if (m_complained != &model)
         m_device->log(gpu::Severity::warning, "voxels: " + model.model->name + " is too large for this device's storage buffers and is left out; OpenVDB takes it");
     m_complained = &model;

@@ -23,7 +23,6 @@ private:
     gpu::Device* m_device = nullptr;
     gpu::Program m_program;
     ModelSets m_sets;
-    uint64_t m_largest = 0;                 // bytes of a storage buffer's binding
     const ModelGpu* m_complained = nullptr; // of one that is too large
 };
 

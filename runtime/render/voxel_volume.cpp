@@ -46,9 +46,7 @@ graph::BufferId VoxelVolume::upload(graph::Graph& graph, const voxel::Change& ch
 graph::BufferId VoxelVolume::uploadGrid(graph::Graph& graph, const voxel::Change& change) {
     const uint64_t bytes = change.grid.size() * sizeof(uint32_t);
     if (bytes > m_bits.bytes()) {
-        VkPhysicalDeviceProperties properties;
-        graph.device().vk().GetPhysicalDeviceProperties(graph.device().physical(), &properties);
-        const uint64_t most = properties.limits.maxStorageBufferRange, roomy = std::min(most, bytes + bytes / 4);
+        const uint64_t most = graph.device().caps().maxStorageRange, roomy = std::min(most, bytes + bytes / 4);
         m_bits = {};
         if (bytes > most) {
             graph.device().log(gpu::Severity::warning, "voxels: the NanoVDB grid is larger than this device's storage buffers; use larger cells");

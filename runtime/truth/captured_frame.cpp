@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "ao/prepare.h"
@@ -144,6 +145,15 @@ void CapturedFrame::check(const std::string& name) const {
         if (!(length > 0.9f && length < 1.1f))
             fail(fmt::format("N has length {} at pixel ({}, {}); normals are unit vectors", length, x, y));
     }
+}
+
+glm::vec3 unpackNormal(uint32_t bits) {
+    const glm::vec2 e = glm::unpackSnorm2x16(bits);
+    glm::vec3 n(e.x, e.y, 1.0f - std::abs(e.x) - std::abs(e.y));
+    const float t = std::max(-n.z, 0.0f);
+    n.x -= n.x >= 0.0f ? t : -t;
+    n.y -= n.y >= 0.0f ? t : -t;
+    return glm::normalize(n);
 }
 
 CapturedFrame emptyFrame(glm::uvec2 visible, glm::uvec2 guard, float verticalFov, float near, std::optional<scene::Camera> camera) {

@@ -55,6 +55,9 @@ struct CapturedFrame {
     void check(const std::string& name) const;
 };
 
+// packNormal() of shaders/shared/octahedral.glsl, undone.
+glm::vec3 unpackNormal(uint32_t bits);
+
 // A frame of the project's own projection, filled with sky: set depth and normals.
 CapturedFrame emptyFrame(glm::uvec2 visible, glm::uvec2 guard, float verticalFov, float near, std::optional<scene::Camera> camera = {});
 

@@ -2,7 +2,7 @@
 #ifndef OBSCURA_SCENE_FACE_GLSL
 #define OBSCURA_SCENE_FACE_GLSL
 
-const uint kFront = 1u, kBack = 2u, kSheet = 3u;
+#include "scene/layers/hit.glsl"
 
 // Side in two bits, solid in six above them. `shell` is DrawItem::normal[2].w: 0 for open sheets, else the solid's number + 1,
 // negative where it is wound the other way round. Numbers go around: that two solids share one is possible, and rare.

@@ -36,7 +36,9 @@ TEST_F(LayeredTest, anEndlessWallIsFoundAtEveryDistance) {
             for (uint32_t x = room.visibleWidth() / 4; x < 3 * room.visibleWidth() / 4; ++x) sum += picture[size_t(y) * room.visibleWidth() + x];
             off.push_back(sum / (room.visibleWidth() / 2) - exactAtWall(a));
             // Four rows hold the whole noise.
-            if (off.size() >= 4) EXPECT_NEAR((off.end()[-1] + off.end()[-2] + off.end()[-3] + off.end()[-4]) / 4, 0.0, tolerance) << a << " m from the wall, " << preset;
+            if (off.size() >= 4) {
+                EXPECT_NEAR((off.end()[-1] + off.end()[-2] + off.end()[-3] + off.end()[-4]) / 4, 0.0, tolerance) << a << " m from the wall, " << preset;
+            }
         }
         EXPECT_GT(off.size(), 10u);
     }

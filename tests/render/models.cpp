@@ -191,4 +191,16 @@ scene::Instance instanceOf(std::shared_ptr<const scene::Model> model, const glm:
     return instance;
 }
 
+scene::World mixedWorld() {
+    scene::World world;
+    world.add(instanceOf(turningCube(), {-0.9f, 0.2f, 0.3f}));
+    world.add(instanceOf(bendingBar(), {0.9f, 0, -0.5f}));
+    world.add(instanceOf(wavingPatch(), {0, 0.3f, -1.5f}));
+    world.add(instanceOf(floorPlate(), {0, -0.8f, 0}));
+    scene::Instance mirrored = instanceOf(turningCube(), {0.0f, 0.9f, 0.0f});
+    mirrored.placement = mirrored.placement * glm::scale(glm::mat4(1.0f), glm::vec3(-0.4f, 0.4f, 0.4f));
+    world.add(mirrored);
+    return world;
+}
+
 }  // namespace obscura::test

@@ -18,4 +18,7 @@ std::shared_ptr<scene::Model> with(std::shared_ptr<scene::Model> model, const sc
 
 scene::Instance instanceOf(std::shared_ptr<const scene::Model> model, const glm::vec3& at = glm::vec3(0.0f));
 
+// All of them, and a smaller cube mirrored.
+scene::World mixedWorld();
+
 }  // namespace obscura::test

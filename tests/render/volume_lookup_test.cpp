@@ -75,7 +75,7 @@ protected:
         EXPECT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
         std::vector<uint32_t> result(places.size());
         std::memcpy(result.data(), back.mapped(), bytes);
-        for (const auto& stage : {program.pipeline()}) EXPECT_NE(stage, VK_NULL_HANDLE);
+        EXPECT_NE(program.pipeline(), VK_NULL_HANDLE);
         device().waitIdle();
         return result;
     }
@@ -107,7 +107,9 @@ protected:
         for (size_t i = 0; i < places.size(); ++i) {
             const bool expected = cells.test(origin + glm::ivec3(glm::floor(glm::vec3(places[i]))));
             ASSERT_EQ(grid[i], expected ? 1u : 0u) << "grid, place " << i << ": " << places[i].x << ' ' << places[i].y << ' ' << places[i].z;
-            if (i < within) ASSERT_EQ(bits[i], grid[i]) << "bits, place " << i;
+            if (i < within) {
+                ASSERT_EQ(bits[i], grid[i]) << "bits, place " << i;
+            }
             set += expected;
         }
         fmt::print("{} of {} places set\n", set, places.size());

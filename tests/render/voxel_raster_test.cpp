@@ -1,5 +1,5 @@
 // The GPU's voxels against OpenVDB's, cell by cell. The GPU computes in single precision and with a slack that covers it: no cell may
-// be missing, and one that is too many must be missed by a triangle by less than that slack.
+// be missing, and few may be too many.
 #include <bit>
 #include <cstring>
 #include <limits>

@@ -134,7 +134,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)");
+    cli.add_option("--offscreen", offscreen, app::kOffScreenHelp);
     takeAll(cli.add_option("--falloff", falloffTexts,
                            "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
     auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported (12; --gallery 7)")

@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
 
 #include "app/complaint.h"
 #include "content.h"
@@ -15,15 +14,6 @@ namespace fs = std::filesystem;
 using app::Complaint;
 
 namespace {
-
-glm::vec3 unpackNormal(uint32_t bits) {
-    const glm::vec2 e = glm::unpackSnorm2x16(bits);
-    glm::vec3 n(e.x, e.y, 1.0f - std::abs(e.x) - std::abs(e.y));
-    const float t = std::max(-n.z, 0.0f);
-    n.x -= n.x >= 0.0f ? t : -t;
-    n.y -= n.y >= 0.0f ? t : -t;
-    return glm::normalize(n);
-}
 
 // The file a path camera names: as given, or below a content folder; empty: the scene's own.
 std::optional<fs::path> pathFile(const CameraChoice& choice, const SceneFile& file) {
@@ -113,7 +103,7 @@ truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& came
     std::memcpy(packed.data(), normals.data(), normals.size());
     for (size_t i = 0; i < packed.size(); ++i) {
         frame.depth[i] = std::min(frame.depth[i], frame.skyDepth);
-        frame.normals[i] = frame.isSky(i) ? glm::vec3(0.0f) : unpackNormal(packed[i]);
+        frame.normals[i] = frame.isSky(i) ? glm::vec3(0.0f) : truth::unpackNormal(packed[i]);
     }
     return frame;
 }

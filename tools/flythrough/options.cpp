@@ -84,7 +84,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    cli.add_option("--offscreen", offscreen, "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)");
+    cli.add_option("--offscreen", offscreen, app::kOffScreenHelp);
     takeAll(cli.add_option("--modes,--filter", filters, "raw (no blur, no history), spatial (the preset's own blur), temporal (and a history)")->capture_default_str());
     cli.add_option("--falloff", falloff, "KIND:LENGTH instead of the flythrough's own");
     cli.add_option("--rays", options.settings.rays, "Rays a pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();

@@ -16,6 +16,7 @@
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: table (when the falloff is new),
 // scan, prefix sums or pyramid, obscurance; interleaved also near field, box average, gather, blur.
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -83,8 +84,7 @@ public:
             if (gpu::Program::compute(device, shaders, "ao/far_field/interleaved.comp", {{0, i}}, result->m_interleaved[i]) != gpu::Status::ok) return nullptr;
         }
         const struct { const char* name; gpu::Program* program; } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid},
-                                                                                {"box_average", &result->m_boxAverage},
-                                                                                {"blur", &result->m_blur}};
+                                                                                {"box_average", &result->m_boxAverage}, {"blur", &result->m_blur}};
         if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, std::string("ao/far_field/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;

@@ -80,8 +80,8 @@ public:
         auto result = std::make_unique<HorizonSplit>();
         const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/horizon_split/horizons.comp", &result->m_horizons},
                                                                                 {"ao/horizon_split/normal_rays.comp", &result->m_normalRays},
-                                                                                {"ao/horizon_split/normal_rays_voxels.comp", &result->m_voxelRays},
-                                                                                {"ao/horizon_split/normal_rays_nanovdb.comp", &result->m_gridRays},
+                                                                                {"ao/horizon_split/normal_rays_voxels.comp", &result->m_voxelRays[0]},
+                                                                                {"ao/horizon_split/normal_rays_nanovdb.comp", &result->m_voxelRays[1]},
                                                                                 {"ao/horizon_split/blur.comp", &result->m_blur}};
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
@@ -112,7 +112,7 @@ public:
         if (constants.rays) {
             const graph::ImageId above = graph.image("horizon_split.above horizon", picture), both = graph.image("horizon_split.visibility", picture);
             const bool inVoxels = values.count("rays_in") && inputs.volume;
-            graph::Pass& pass = graph.pass("horizon_split.normal rays", !inVoxels ? m_normalRays : inputs.volume.structure == VolumeStructure::dense ? m_voxelRays : m_gridRays);
+            graph::Pass& pass = graph.pass("horizon_split.normal rays", inVoxels ? m_voxelRays[size_t(inputs.volume.structure)] : m_normalRays);
             pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(result).read(horizons).write(above).write(both);
             if (inVoxels) pass.read(inputs.volume.block).read(inputs.volume.bits);
             else if (values.count("rays_in") && !std::exchange(m_said, true))
@@ -146,11 +146,11 @@ private:
     }
 
     gpu::Program m_horizons;
-    gpu::Program m_normalRays, m_voxelRays, m_gridRays;
+    gpu::Program m_normalRays, m_voxelRays[2];  // the latter by structure
     gpu::Program m_blur;
     Denoise m_denoise;
-    bool m_said = false;
     Gather m_gather;
+    bool m_said = false;
 };
 
 }  // namespace

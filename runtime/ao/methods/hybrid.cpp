@@ -10,6 +10,7 @@
 // Reads the volume, linear depth and normals; writes visibility of the visible part.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ao/resolve.h"
 #include "ao/upsample.h"
@@ -54,9 +55,8 @@ class Hybrid final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Hybrid>();
-        result->m_device = &device;
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {}, result->m_trace) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace_nanovdb.comp", {}, result->m_traceGrid) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {}, result->m_trace[0]) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace_nanovdb.comp", {}, result->m_trace[1]) != gpu::Status::ok) return nullptr;
         if (Upsample::create(device, shaders, result->m_upsample) != Status::ok) return nullptr;
         return result;
     }
@@ -70,8 +70,8 @@ public:
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
         const Trace trace{inputs.falloff, values.count("rays"), values.count("steps"), scale, std::cos(values["spread"] * 1.5707963f), values["offset"],
                           values["jitter"], 1.0f / kGrain};
-        graph.pass("hybrid.trace", inputs.volume.structure == VolumeStructure::dense ? m_trace : m_traceGrid).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth)
-            .read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
+        graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)]).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits)
+            .read(inputs.depth).read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
         if (scale == 1 && values["filter"] < 1.0f) return map;
 
         const UpsampleSettings upsample{scale, std::max(values["filter"], 2.0f * float(scale)), values["filter_range"] * inputs.falloff.reach};
@@ -80,13 +80,11 @@ public:
 
 private:
     graph::ImageId open(graph::Graph& graph, const Inputs& inputs) {
-        if (!m_said) m_device->log(gpu::Severity::warning, "hybrid: the frame brings no volume, so nothing is blocked");
-        m_said = true;
+        if (!std::exchange(m_said, true)) graph.device().log(gpu::Severity::warning, "hybrid: the frame brings no volume, so nothing is blocked");
         return allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "hybrid.open");
     }
 
-    gpu::Device* m_device = nullptr;
-    gpu::Program m_trace, m_traceGrid;
+    gpu::Program m_trace[2];  // by structure
     Upsample m_upsample;
     bool m_said = false;
 };

@@ -2,8 +2,8 @@
 // well, and integrated without guessing. Around the view ray of a pixel, slices of the hemisphere are cut: N of them, evenly
 // in azimuth. On each side of a slice M samples stand for whole strata of the way out to the falloff's reach: what a texel
 // holds - one or two spans [front, back] of matter along its view ray - is continued over its stratum in the texel's tangent
-// plane (a little way; all the way where the sample before lies in the same plane), covers the angles from its fronts to its backs, and each 32nd of the side's integral is covered at most once, with
-// the falloff of what covers it first:
+// plane (a little way; all the way where the sample before lies in the same plane), covers the angles from its fronts to its
+// backs, and each 32nd of the side's integral is covered at most once, with the falloff of what covers it first:
 //     A = 1/N sum over slices and sides of whole/32 * sum over segments of rho * (bits newly covered)
 // A bit is an equal part of the cosine-weighted solid angle. With a the angle from the view ray v, od the slice's direction
 // across it and c = cos a, the integral up to a is
@@ -75,7 +75,7 @@ public:
         const auto& size = inputs.view.size;
         const auto& visible = inputs.view.visible;
         const bool first = bool(inputs.layers.thickness), second = bool(inputs.layers.second);
-        const graph::ImageId missing = first && second ? graph::ImageId{} : nothing(graph);
+        const graph::ImageId missing = first && second ? graph::ImageId{} : allOpen(graph, {1, 1}, "layered.nothing");  // bound, not read
         const SurfaceConstants surface{values["sheet"], values["thickness"], second ? 2u : first ? 1u : 0u,
                                        second && graph.desc(inputs.layers.second).width < size.x ? 1u : 0u};
         const graph::ImageId surfaces = graph.image("layered.surfaces", {VK_FORMAT_R32G32B32A32_UINT, size.x, size.y});
@@ -94,17 +94,6 @@ public:
     Blocking blocking(const Inputs&, const Values& values) const override { return {Blocking::kEndless, values["thickness"]}; }
 
 private:
-    // Stands in for a layer that is not there: bound, not read.
-    static graph::ImageId nothing(graph::Graph& graph) {
-        const graph::ImageId image = graph.image("layered.nothing", {VK_FORMAT_R16_SFLOAT, 1, 1});
-        graph.pass("layered.nothing").use(image, graph::Access::transferWrite, true).record([image](const graph::PassContext& c) {
-            const VkClearColorValue zero{};
-            const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-            c.device.vk().CmdClearColorImage(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1, &range);
-        });
-        return image;
-    }
-
     gpu::Program m_surfaces;
     gpu::Program m_segments[2];  // of one span, of two
     Denoise m_denoise;

@@ -24,9 +24,7 @@ Status StatisticalTables::create(gpu::Device& device, const gpu::ShaderLibrary& 
         if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return Status::shaderError;
     for (uint32_t level = 0; level < 4; ++level)
         if (gpu::Program::compute(device, shaders, "ao/statistical/layers.comp", {{0, level}}, out.m_layers[level]) != gpu::Status::ok) return Status::shaderError;
-    VkPhysicalDeviceProperties properties;
-    device.vk().GetPhysicalDeviceProperties(device.physical(), &properties);
-    out.m_largest = properties.limits.maxStorageBufferRange;
+    out.m_largest = device.caps().maxStorageRange;
     return Status::ok;
 }
 

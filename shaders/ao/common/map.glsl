@@ -1,7 +1,18 @@
-// What passes on a map share that has fewer pixels than the picture (runtime/ao/upsample.h): which pixel receives, noise that rests on
-// surfaces, a frame around a normal. The includer has declared `depth` and `normals`, the images.
+// What passes share that trace the volume on a map with fewer pixels than the picture (runtime/ao/upsample.h): bindings, which pixel
+// receives, noise that rests on surfaces, a frame around a normal. The includer says VOLUME_BINDING 2 (shared/volume.h).
+// In: view, volume, linear depth, packed normals. Out: visibility of the map's receivers, and what they are.
 #ifndef OBSCURA_MAP_GLSL
 #define OBSCURA_MAP_GLSL
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+#include "shared/volume.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, std140) uniform VolumeBlock { Volume volumeBlock; };
+layout(set = 0, binding = 3, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D map;
+layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D receivers;  // linear depth as bits, packed normal
 
 // Of the `every` x `every` pixels that the map's pixel p stands for, the one that faces most as all of them do, guard band counted:
 // a ledge a pixel wide is not sampled by chance, here and there.
@@ -21,6 +32,19 @@ ivec2 receiverOf(View view, ivec2 p, int every) {
         best = max(best, agrees);
     }
     return texel;
+}
+
+// Notes the receiver of the map's pixel p: where it is and its normal, towards the eye. False: it is sky, and open.
+bool receive(View view, ivec2 p, int every, out vec3 here, out vec3 n) {
+    ivec2 texel = receiverOf(view, p, every);
+    float z = imageLoad(depth, texel).x;
+    uint packed = imageLoad(normals, texel).x;
+    imageStore(receivers, p, uvec4(floatBitsToUint(z), packed, 0, 0));
+    here = eyePosition(view, vec2(texel) + 0.5, z);
+    n = unpackNormal(packed);
+    n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
+    if (isSky(view, z)) imageStore(map, p, vec4(1.0));
+    return !isSky(view, z);
 }
 
 // Three numbers in [0,1) from a lattice cell [Jarzynski and Olano 2020, pcg3d].

@@ -3,18 +3,8 @@
 // runtime/ao/methods/hybrid.cpp.
 #ifndef OBSCURA_HYBRID_TRACE_GLSL
 #define OBSCURA_HYBRID_TRACE_GLSL
-#include "shared/falloff.h"
-#include "shared/octahedral.glsl"
-#include "shared/view.h"
-#include "shared/volume.h"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
-layout(set = 0, binding = 1, std140) uniform VolumeBlock { Volume volumeBlock; };
-layout(set = 0, binding = 3, r32f) uniform readonly image2D depth;
-layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D normals;
-layout(set = 0, binding = 5, r16f) uniform writeonly image2D map;
-layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D receivers;  // linear depth as bits, packed normal
 #include "ao/common/map.glsl"
+#include "shared/falloff.h"
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
     uint rays;
@@ -37,17 +27,8 @@ void main() {
     float coneCosine = cone, offsetCells = offset, jitterOfSteps = jitter;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(map)))) return;
-    ivec2 texel = receiverOf(view, p, int(scale));
-    float z = imageLoad(depth, texel).x;
-    uint packed = imageLoad(normals, texel).x;
-    imageStore(receivers, p, uvec4(floatBitsToUint(z), packed, 0, 0));
-    if (isSky(view, z)) {
-        imageStore(map, p, vec4(1.0));
-        return;
-    }
-    vec3 here = eyePosition(view, vec2(texel) + 0.5, z);
-    vec3 n = unpackNormal(packed);
-    if (dot(n, towardsEye(view, here)) < 0.0) n = -n;
+    vec3 here, n;
+    if (!receive(view, p, int(scale), here, n)) return;
 
     // From here on in cells: a step is one vector, and turning into the world is done once.
     float metres = volume.anchor.w;

@@ -3,6 +3,8 @@
 #ifndef OBSCURA_SCENE_HIT_GLSL
 #define OBSCURA_SCENE_HIT_GLSL
 
+const uint kFront = 1u, kBack = 2u, kSheet = 3u;  // the face's two lowest bits
+
 uint hitOf(float deviceDepth, uint face) { return (floatBitsToUint(deviceDepth) & ~255u) | face; }
 float depthOf(uint hit) { return uintBitsToFloat(hit & ~255u); }
 uint faceOfHit(uint hit) { return hit & 255u; }

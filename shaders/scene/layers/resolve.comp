@@ -20,7 +20,6 @@ layout(push_constant) uniform Constants {
     uint asked;    // 0: no second layer; 1: of every pixel; 2: of every other one
 };
 
-const uint kFront = 1u, kBack = 2u;
 const float kEndless = 65504.0, kThinnest = 1e-4;  // of solids, metres: 0 would be a sheet
 const float kTouching = 1e-4;  // of the depth: what begins so little before a solid ends stands at it, not in it
 
