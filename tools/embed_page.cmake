@@ -1,11 +1,16 @@
-# Writes a page's files (NAME.html, .css, .js) as C++ strings of a namespace:
-#   cmake -DPAGE=folder -DNAME=gallery -DNAMESPACE=obscura::evaluate -DOUT=page.cpp -P embed_page.cmake
+# Writes a page's files (NAME.html, .css, .js) as C++ strings of a namespace, its style and script after those in page/base.* here:
+#   cmake -DPAGE=folder -DNAME=gallery -DNAMESPACE=obscura::evaluate -DOUT=page.cpp [-DBASE=ON] -P embed_page.cmake
 set(text "// Generated from ${NAME}.html, .css and .js. Do not edit.\n#include \"page.h\"\n\nnamespace ${NAMESPACE} {\n\n")
 foreach(kind html css js)
   string(SUBSTRING ${kind} 0 1 first)
   string(TOUPPER ${first} first)
   string(SUBSTRING ${kind} 1 -1 rest)
+  set(shared "")
+  if(BASE AND NOT kind STREQUAL html)
+    file(READ ${CMAKE_CURRENT_LIST_DIR}/page/base.${kind} shared)
+  endif()
   file(READ ${PAGE}/${NAME}.${kind} content)
-  string(APPEND text "const char* const kPage${first}${rest} = R\"~page~(${content})~page~\";\n\n")
+  # Two literals: compilers bound the length of one.
+  string(APPEND text "const char* const kPage${first}${rest} = R\"~page~(${shared})~page~\"\nR\"~page~(${content})~page~\";\n\n")
 endforeach()
 file(WRITE ${OUT} "${text}}  // namespace ${NAMESPACE}\n")

@@ -53,6 +53,13 @@ glm::uvec2 sizeOf(const std::string& text) {
     return {uint32_t(list[0]), uint32_t(list[1])};
 }
 
+std::string shellWord(const std::string& word) {
+    if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string::npos) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
 bool parse(CLI::App& cli, int argc, const char* const* argv) {
     try {
         cli.parse(argc, argv);

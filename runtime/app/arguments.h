@@ -16,6 +16,8 @@ namespace obscura::app {
 std::vector<float> numbers(const std::string& text, char separator);
 // "1280x720", px; throws Complaint that says how a size is written.
 glm::uvec2 sizeOf(const std::string& text);
+// A word as a shell reads it back.
+std::string shellWord(const std::string& word);
 // What --offscreen says of itself in every program.
 inline constexpr const char* kOffScreenHelp =
     "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)";

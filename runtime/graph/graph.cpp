@@ -278,6 +278,21 @@ uint64_t Graph::poolBytes() const {
     return total;
 }
 
+uint64_t Graph::frameBytes() const {
+    uint64_t total = 0;
+    for (const PoolImage& image : m_pool)
+        if (image.lastUsed == m_device.frame()) total += image.image.bytes();
+    std::vector<VkBuffer> seen;
+    for (uint32_t i = 0; i < m_recording.resources.size(); ++i) {
+        const Physical& physical = m_physical[i];
+        if (physical.owned && m_plan.slotOf[i] < 0) total += physical.owned->bytes();
+        if (!physical.buffer || std::find(seen.begin(), seen.end(), physical.buffer) != seen.end()) continue;
+        seen.push_back(physical.buffer);
+        total += physical.bytes;
+    }
+    return total;
+}
+
 // A pass against its shaders: as many bindings as reads and writes, each of the kind that was given.
 bool Graph::check(const Pass& pass) {
     const std::string& name = m_recording.passes[pass.m_index].name;

@@ -165,6 +165,8 @@ public:
     std::string planText() const;                          // of the last executed frame
     std::string planDot() const;
     uint64_t poolBytes() const;
+    // Device memory that this frame's passes have in use: pooled images and buffers, histories, buffers from outside. After execute().
+    uint64_t frameBytes() const;
     gpu::Device& device() const { return m_device; }
 
 private:

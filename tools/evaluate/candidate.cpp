@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/complaint.h"
+#include "app/voxel_arguments.h"
 
 namespace obscura::evaluate {
 
@@ -55,10 +56,24 @@ void expectKnown(const std::vector<const ao::MethodInfo*>& methods, const std::v
                                         app::choices(wanted, names)));
 }
 
+// How the world is voxelized, as parameters of whatever traces voxels.
+const ao::Parameter kVoxels[] = {
+    {"voxels", "", 64, 512, 256, true, {}, ""},
+    {"voxel_size", "m", 0, 1000, 0, false, {}, ""},
+    {"voxelizer", "", 0, 1, 0, true, {app::kVoxelizerNames, 2}, ""},
+    {"voxel_structure", "", 0, 1, 0, true, {app::kStructureNames, 2}, ""},
+    {"voxel_shell", "", 0, 1, 0, true, {app::kShellNames, 2}, ""},
+};
+constexpr std::optional<float> VoxelChoice::*kVoxelMembers[] = {&VoxelChoice::cells, &VoxelChoice::cellSize, &VoxelChoice::voxelizer,
+                                                                &VoxelChoice::structure, &VoxelChoice::shell};
+
 // Nothing when the method has no such parameter.
-const ao::Parameter* parameterOf(const ao::MethodInfo& info, const std::string& name) {
-    for (const ao::Parameter& parameter : info.parameters)
+const ao::Parameter* parameterOf(const Candidate& candidate, const std::string& name) {
+    for (const ao::Parameter& parameter : candidate.info().parameters)
         if (name == parameter.id) return &parameter;
+    if (ao::needs(candidate.values) & ao::kVolume)
+        for (const ao::Parameter& parameter : kVoxels)
+            if (name == parameter.id) return &parameter;
     return nullptr;
 }
 
@@ -93,9 +108,12 @@ void assign(std::vector<Candidate>& list, const std::string& assignment) {
         chosen = true;
         for (const ao::Parameter& parameter : candidate.info().parameters)
             if (std::find(names.begin(), names.end(), parameter.id) == names.end()) names.emplace_back(parameter.id);
-        const ao::Parameter* parameter = parameterOf(candidate.info(), name);
+        const ao::Parameter* parameter = parameterOf(candidate, name);
         if (!parameter) continue;
-        candidate.values.set(parameter->id, valueOf(assignment, *parameter, text));
+        const float value = valueOf(assignment, *parameter, text);
+        if (parameter == kVoxels && value != 64.0f && value != 128.0f && value != 256.0f && value != 512.0f)
+            throw Complaint(fmt::format("--set {}: a window has 64, 128, 256 or 512 cells a side", assignment));
+        if (!candidate.values.set(parameter->id, value)) candidate.voxels.*kVoxelMembers[parameter - kVoxels] = value;
         candidate.settings.push_back(name + "=" + text);
         used = true;
     }
@@ -104,6 +122,15 @@ void assign(std::vector<Candidate>& list, const std::string& assignment) {
 }
 
 }  // namespace
+
+render::Voxelization VoxelChoice::over(render::Voxelization how) const {
+    if (cells) how.cells = uint32_t(*cells);
+    if (cellSize) how.cellSize = *cellSize;
+    if (voxelizer) how.voxelizer = render::Voxelizer(int(*voxelizer));
+    if (structure) how.structure = ao::VolumeStructure(int(*structure));
+    if (shell) how.shell = voxel::Shell(int(*shell));
+    return how;
+}
 
 std::string Candidate::label() const {
     std::string text = info().id;
@@ -133,6 +160,43 @@ std::vector<Candidate> candidates(const std::vector<std::string>& methods, const
         }
     for (const std::string& assignment : sets) assign(list, assignment);
     return list;
+}
+
+std::vector<Candidate> variants(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
+                                const std::vector<std::string>& sets) {
+    // Every combination of the lists' values, the last list's fastest.
+    std::vector<std::vector<std::string>> combinations{{}};
+    std::vector<std::string> varied;
+    for (const std::string& set : sets) {
+        const size_t equals = set.find('='), dot = set.rfind('.', equals);
+        const bool list = equals != std::string::npos && set.find(',', equals) != std::string::npos;
+        if (list) varied.push_back(set.substr(dot == std::string::npos ? 0 : dot + 1, equals - (dot == std::string::npos ? 0 : dot + 1)));
+        std::vector<std::vector<std::string>> next;
+        for (const std::vector<std::string>& combination : combinations)
+            for (size_t at = list ? equals + 1 : 0; at <= set.size();) {
+                const size_t end = list ? std::min(set.find(',', at), set.size()) : set.size();
+                next.push_back(combination);
+                next.back().push_back(list ? set.substr(0, equals + 1) + set.substr(at, end - at) : set);
+                at = end + 1;
+            }
+        combinations = std::move(next);
+    }
+    std::vector<Candidate> all;
+    for (const std::vector<std::string>& combination : combinations)
+        for (Candidate& candidate : candidates(methods, presets, combination)) {
+            const bool known = std::any_of(all.begin(), all.end(), [&](const Candidate& c) { return c.label() == candidate.label(); });
+            if (known) continue;
+            for (const std::string& name : varied)
+                for (const std::string& setting : candidate.settings)
+                    if (setting.starts_with(name + "=")) candidate.varied.push_back(name);
+            all.push_back(std::move(candidate));
+        }
+    // A method's variants side by side, in the order of the methods.
+    std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+        const auto order = [](const Candidate& c) { return std::find(ao::methods().begin(), ao::methods().end(), &c.info()); };
+        return order(a) < order(b);
+    });
+    return all;
 }
 
 std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts) {

@@ -4,14 +4,25 @@
 #include <string>
 #include <vector>
 
+#include <optional>
+
 #include "ao/method.h"
+#include "render/voxel_volume.h"
 
 namespace obscura::evaluate {
+
+// What a candidate asks of the voxels, over what the run says: settings voxels, voxel_size, voxelizer, voxel_structure, voxel_shell.
+struct VoxelChoice {
+    std::optional<float> cells, cellSize, voxelizer, structure, shell;
+    render::Voxelization over(render::Voxelization how) const;
+};
 
 struct Candidate {
     ao::Values values;
     std::string preset;
     std::vector<std::string> settings;  // "steps=4", over the preset
+    VoxelChoice voxels;
+    std::vector<std::string> varied;    // parameters of `settings` that were given a list of values
     const ao::MethodInfo& info() const { return values.info(); }
     std::string label() const;          // "hbao 8x4 steps=4"; the default preset goes without saying
     std::string fileName() const;       // "hbao.8x4", settings included; letters, digits, dots, dashes
@@ -21,6 +32,9 @@ struct Candidate {
 // "PARAMETER=VALUE" for every chosen method that has the parameter. Throws app::Complaint that lists what there is.
 std::vector<Candidate> candidates(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
                                   const std::vector<std::string>& sets);
+// The same where a setting may list values, "steps=4,8,16": a candidate for each combination, none twice.
+std::vector<Candidate> variants(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
+                                const std::vector<std::string>& sets);
 
 struct FalloffChoice {
     ao::Falloff falloff;

@@ -108,12 +108,16 @@ Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declar
     std::vector<gpu::Buffer> buffers;
     app::Statistics statistics(timed);
     uint64_t firstTimed = 0;
+    Ran ran;
     // Times arrive when a frame's slot comes round again: two more frames than are looked at.
     for (uint32_t i = 0; i <= last + m_device->framesInFlight(); ++i) {
         expect(m_frames->begin(*m_graph), "starting a frame");
         if (i == warmUp) firstTimed = m_device->frame();
         const graph::Timings& timings = m_graph->timings();
-        if (firstTimed && timings.frame >= firstTimed && timings.frame < firstTimed + timed) statistics.add(timings);
+        if (firstTimed && timings.frame >= firstTimed && timings.frame < firstTimed + timed) {
+            statistics.add(timings);
+            if (ran.frames.empty() || ran.frames.back().frame != timings.frame) ran.frames.push_back(timings);
+        }
         if (i > last) {
             expect(m_frames->end(*m_graph), "waiting for times");
             continue;
@@ -126,13 +130,14 @@ Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declar
             else m_graph->output(images[k]);
         }
         expect(m_frames->end(*m_graph), "drawing");
+        if (i == last) ran.bytes = m_graph->frameBytes();
     }
     expect(m_frames->wait(), "drawing");
 
-    Ran ran;
     for (const gpu::Buffer& buffer : buffers) ran.images.emplace_back(buffer.mapped(), buffer.mapped() + buffer.bytes());
     for (const app::Series& series : statistics.passes())
         if (series.name != kReadBack) ran.passes.push_back({series.name, series.median()});
+    for (graph::Timings& frame : ran.frames) std::erase_if(frame.passes, [](const graph::PassTime& pass) { return pass.name == kReadBack; });
     return ran;
 }
 

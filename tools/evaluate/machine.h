@@ -38,6 +38,8 @@ public:
     struct Ran {
         std::vector<std::vector<std::byte>> images;  // tightly packed rows
         std::vector<graph::PassTime> passes;         // medians over the timed frames, in execution order
+        std::vector<graph::Timings> frames;          // every timed frame
+        uint64_t bytes = 0;                          // Graph::frameBytes() of the last one
     };
     Ran run(uint32_t warmUp, uint32_t timed, const Declare& declare);
 

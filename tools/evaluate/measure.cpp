@@ -29,21 +29,6 @@ truth::Plane planeOf(const std::vector<std::byte>& halves, glm::uvec2 size, cons
     return plane;
 }
 
-Drawn draw(Machine& machine, Shot& shot, const Options& options, size_t candidateIndex, size_t falloffIndex) {
-    const Candidate& candidate = options.candidates[candidateIndex];
-    // A method that gathers over frames is judged once it has gathered.
-    constexpr uint32_t kGathered = 16;
-    const bool gathers = (candidate.info().needs & ao::kMotion) || (candidate.info().needs && candidate.values["temporal"] > 0.0f);
-    const uint32_t warmUp = gathers ? std::max(options.warmUp, kGathered) : options.warmUp;
-    Machine::Ran ran = machine.run(warmUp, options.frames, [&](graph::Graph& graph, uint32_t index) {
-        return std::vector{shot.add(graph, candidate, options.falloffs[falloffIndex].falloff, index)};
-    });
-    Drawn drawn{candidateIndex, falloffIndex, planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, 0.0};
-    for (graph::PassTime& pass : ran.passes)
-        if (std::find(shot.framePasses.begin(), shot.framePasses.end(), pass.name) == shot.framePasses.end()) drawn.passes.push_back(std::move(pass));
-    return drawn;
-}
-
 // The list is run round by round; the times that count are medians over the rounds.
 std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options) {
     const size_t perFalloff = options.candidates.size(), count = perFalloff * options.falloffs.size();
@@ -53,10 +38,12 @@ std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options)
     for (uint32_t round = 0; round < options.rounds; ++round)
         for (size_t i = 0; i < count; ++i) {
             progress.at(round * count + i, options.candidates[i % perFalloff].label());
-            Drawn drawn = draw(machine, shot, options, i % perFalloff, i / perFalloff);
-            times[i].resize(drawn.passes.size());
-            for (size_t p = 0; p < drawn.passes.size(); ++p) times[i][p].push_back(drawn.passes[p].milliseconds);
-            if (round == 0) all.push_back(std::move(drawn));
+            Drawing drawing = draw(machine, shot, options.candidates[i % perFalloff], options.falloffs[i / perFalloff].falloff, options.warmUp, options.frames);
+            times[i].resize(drawing.passes.size());
+            for (size_t p = 0; p < drawing.passes.size(); ++p) times[i][p].push_back(drawing.passes[p].median());
+            if (round > 0) continue;
+            all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), {}, 0.0});
+            for (const app::Series& pass : drawing.passes) all.back().passes.push_back({pass.name, 0.0});
         }
     for (size_t i = 0; i < count; ++i)
         for (size_t p = 0; p < all[i].passes.size(); ++p) {
@@ -77,6 +64,36 @@ std::vector<truth::RegionMetrics> meanError(const truth::Plane& visibility, cons
 }
 
 }  // namespace
+
+Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao::Falloff& falloff, uint32_t warmUp, uint32_t frames) {
+    // A method that gathers over frames is judged once it has gathered.
+    constexpr uint32_t kGathered = 16;
+    const bool gathers = (candidate.info().needs & ao::kMotion) || (candidate.info().needs && candidate.values["temporal"] > 0.0f);
+    const Machine::Ran ran = machine.run(gathers ? std::max(warmUp, kGathered) : warmUp, frames, [&](graph::Graph& graph, uint32_t index) {
+        return std::vector{shot.add(graph, candidate, falloff, index)};
+    });
+    Drawing drawing{planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, {}, {}, ran.bytes};
+    const auto drawsTheFrame = [&](const std::string& pass) { return std::find(shot.framePasses.begin(), shot.framePasses.end(), pass) != shot.framePasses.end(); };
+    for (const graph::PassTime& pass : ran.passes)
+        if (!drawsTheFrame(pass.name)) drawing.passes.push_back({pass.name, {}});
+    for (const graph::Timings& frame : ran.frames) {
+        double own = 0.0, rest = 0.0;
+        for (const graph::PassTime& pass : frame.passes) {
+            const auto series = std::find_if(drawing.passes.begin(), drawing.passes.end(), [&](const app::Series& s) { return s.name == pass.name; });
+            (drawsTheFrame(pass.name) ? rest : own) += pass.milliseconds;
+            if (series != drawing.passes.end()) series->values.push_back(pass.milliseconds);
+        }
+        drawing.own.push_back(own);
+        drawing.rest.push_back(rest);
+    }
+    return drawing;
+}
+
+double digits(double value) {
+    if (value == 0.0 || !std::isfinite(value)) return 0.0;
+    const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::fabs(value))));
+    return std::round(value * scale) / scale;
+}
 
 ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
     ShotResult result;

@@ -1,10 +1,22 @@
 // The measurement itself: every candidate and falloff on a shot, against every reference.
 #pragma once
 
+#include "app/statistics.h"
 #include "references.h"
 #include "truth/metrics.h"
 
 namespace obscura::evaluate {
+
+// A run of frames with one candidate.
+struct Drawing {
+    truth::Plane visibility;
+    std::vector<app::Series> passes;  // the method's own, a value a timed frame; fewer where a frame went without the pass
+    std::vector<double> own;          // a timed frame: its own passes, summed
+    std::vector<double> rest;         // and what draws the frame whatever the method
+    uint64_t bytes = 0;               // graph::Graph::frameBytes()
+};
+// Methods that gather over frames are warmed up until they have. Throws app::Complaint where a value is not finite.
+Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao::Falloff& falloff, uint32_t warmUp, uint32_t frames);
 
 // What one candidate drew with one falloff.
 struct Drawn {
@@ -38,6 +50,9 @@ struct ShotResult {
     Seconds seconds;
     bool referencesFromCache = false;
 };
+
+// Six significant digits: what float errors hold. Not finite: 0.
+double digits(double value);
 
 ShotResult measure(Machine& machine, Shot& shot, const Options& options);
 

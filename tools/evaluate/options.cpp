@@ -9,6 +9,7 @@
 #include "app/arguments.h"
 #include "app/complaint.h"
 #include "app/voxel_arguments.h"
+#include "arguments.h"
 #include "content.h"
 #include "scene/hash.h"
 
@@ -106,13 +107,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-evaluate --gallery gallery.html\n"
         "  obscura-evaluate --renew-baseline tests/accuracy/baseline.json");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::vector<std::string> methods{"hbao"}, presets{"default"}, falloffTexts, cameras, references, sets;
-    std::string size, channel, page, check, renew, capture, offscreen;
+    Judged judged;
+    std::vector<std::string> falloffTexts, cameras, references;
+    std::string size, channel, page, check, renew, capture;
     float time = 0.0f;
     bool list = false, scenesListed = false, noCache = false;
-    const auto takeAll = [](CLI::Option* option) {
-        return option->delimiter(',')->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    };
 
     cli.option_defaults()->group("What is looked at");
     cli.add_option("--capture", capture, "EXR of a captured frame: Z, and N.X N.Y N.Z where there are normals; needs --camera FILE.json");
@@ -129,12 +128,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     app::addVoxelArguments(cli, options.voxels, cli.option_defaults()->get_group());
 
     cli.option_defaults()->group("What is judged");
-    auto* methodOption = takeAll(cli.add_option("--method", methods, "Methods by id, or all")->capture_default_str());
-    auto* presetOption = takeAll(cli.add_option("--preset", presets, "Presets of them, or all")->capture_default_str());
-    cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    cli.add_option("--offscreen", offscreen, app::kOffScreenHelp);
+    addJudged(cli, judged);
     takeAll(cli.add_option("--falloff", falloffTexts,
                            "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
     auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported (12; --gallery 7)")
@@ -167,12 +161,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     gallery->excludes(checkOption)->excludes(renewOption);
     checkOption->excludes(renewOption);
 
-    cli.option_defaults()->group("Device");
-    cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use");
-    cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync")
-        ->check(CLI::IsMember({"off", "core", "sync"}))
-        ->capture_default_str();
-    cli.add_flag("--verbose", options.verbose, "Print what the device and the loader have to say");
+    addDevice(cli, options.device, options.validation, options.verbose);
     cli.add_flag("--list-methods", list, "Print the methods and their presets");
     cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and where they are found");
 
@@ -185,7 +174,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*gallery) {
         options.job = Job::gallery;
         options.page = page.empty() ? "gallery.html" : page;
-        if (!*methodOption) methods = {"all"};
+        if (cli.count("--method") == 0) judged.methods = {"all"};
         if (falloffTexts.empty()) falloffTexts = {"quadratic:2", "exponential:1"};
         if (references.empty()) references = {"world", "screen"};
         if (!*frames) options.frames = 7;
@@ -197,10 +186,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     } else if (*checkOption || *renewOption) {
         options.job = *checkOption ? Job::checkBaseline : Job::renewBaseline;
         options.baseline = *checkOption ? check : renew;
-        if (!*methodOption) methods = {"all"};
-        if (!*presetOption) presets = {"all"};
+        if (cli.count("--method") == 0) judged.methods = {"all"};
+        if (cli.count("--preset") == 0) judged.presets = {"all"};
     }
-    if (!offscreen.empty()) sets.insert(sets.begin(), "offscreen=" + offscreen);
     options.capture = capture;
     if (!capture.empty()) {
         if (cameras.size() > 1) throw Complaint("--camera: a captured frame has one camera, FILE.json");
@@ -210,9 +198,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if ((options.usualCameras = options.cameras.empty())) options.cameras.push_back(cameraOf("own"));
         if (options.usualCameras && options.job == Job::gallery) options.cameras.push_back(cameraOf("path:@4"));
     }
+    const std::vector<std::string> sets = judged.allSets();
     if (!sets.empty() && options.job == Job::renewBaseline) throw Complaint("--set: a baseline holds presets as they are");
     if (references.empty()) references = {capture.empty() ? "world" : "screen"};
-    options.candidates = candidates(methods, presets, sets);
+    options.candidates = candidates(judged.methods, judged.presets, sets);
     options.falloffs = falloffs(falloffTexts.empty() ? std::vector<std::string>{"quadratic:2"} : falloffTexts);
     options.reference = referenceOf(references, channel);
     if (*timeOption && !std::isfinite(time)) throw Complaint("--time: must be a finite number of seconds");

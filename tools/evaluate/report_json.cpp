@@ -1,17 +1,8 @@
 #include "report.h"
 
-#include <cmath>
-
 namespace obscura::evaluate {
 
 namespace {
-
-// Six significant digits: what float errors hold.
-double digits(double value) {
-    if (value == 0.0 || !std::isfinite(value)) return 0.0;
-    const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::fabs(value))));
-    return std::round(value * scale) / scale;
-}
 
 void putErrors(Json& json, const truth::Errors& errors) {
     json["eA"] = digits(errors.eA);

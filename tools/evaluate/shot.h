@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "content.h"
 #include "machine.h"
 #include "options.h"
 #include "scene/world.h"
@@ -29,6 +30,21 @@ struct Shot {
     ao::Library* library = nullptr;
     // Passes of `add` that draw the frame itself, whatever the method: no part of its cost.
     std::vector<std::string> framePasses;
+};
+
+// A scene loaded and on the GPU. Its shots hold until the machine makes another renderer. Throws app::Complaint or scene::Error.
+class LoadedScene {
+public:
+    LoadedScene(Machine& machine, const std::string& nameOrPath);
+    // Draws the frame once; options give size, guard band, time and voxels. Nothing where a usual camera is not to be had.
+    std::optional<Shot> shot(const Options& options, const CameraChoice& camera);
+    size_t triangles() const { return m_world->triangleCount(); }
+
+private:
+    Machine& m_machine;
+    SceneFile m_file;
+    std::shared_ptr<scene::World> m_world;
+    double m_seconds = 0.0;  // loading, told with the first shot
 };
 
 // Each shot is made, handed over and dropped before the next, so that one scene is in memory at a time.

@@ -117,39 +117,47 @@ void expectScenes(const Options& options) {
 
 size_t shotCount(const Options& options) { return options.capture.empty() ? options.scenes.size() * options.cameras.size() : 1; }
 
+LoadedScene::LoadedScene(Machine& machine, const std::string& name) : m_machine(machine), m_file(findScene(name)), m_world(std::make_shared<scene::World>()) {
+    const double begun = app::now();
+    m_world->add({.model = scene::loadGltf(m_file.file)});
+    if (m_world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", name));
+    if (machine.newRenderer().load(*m_world) != gpu::Status::ok)
+        throw Complaint(fmt::format("{}: cannot be uploaded to {}", m_file.file.string(), machine.deviceName()), app::kFailed);
+    m_seconds = (app::now() - begun) * 1e-3;
+}
+
+std::optional<Shot> LoadedScene::shot(const Options& options, const CameraChoice& choice) {
+    const double begun = app::now();
+    Shot shot;
+    shot.scene = m_file.name;
+    shot.camera = choice.text;
+    shot.time = timeOf(options, choice);
+    const auto camera = cameraFor(choice, m_file, m_world.get(), shot.time, options.usualCameras);
+    if (!camera) return std::nullopt;
+    const render::FrameOptions wanted = frameOptions(options, *camera, shot.time);
+    capture(m_machine, options, *m_world, wanted, shot);
+    shot.world = m_world;
+    shot.skipMasked = options.skipMasked;
+    shot.library = &m_machine.renderer().library();
+    shot.add = [&renderer = m_machine.renderer(), world = m_world, wanted](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff,
+                                                                           uint32_t index) {
+        render::FrameOptions frame = wanted;
+        frame.method = &candidate.values;
+        frame.falloff = falloff;
+        frame.voxels = candidate.voxels.over(frame.voxels);
+        frame.cut = index == 0;
+        return renderer.add(graph, *world, frame).visibility;
+    };
+    shot.seconds = (app::now() - begun) * 1e-3 + m_seconds;
+    m_seconds = 0.0;
+    return shot;
+}
+
 void sceneShots(Machine& machine, const Options& options, const TakeShot& take) {
     for (const std::string& name : options.scenes) {
-        double begun = app::now();
-        const SceneFile file = findScene(name);
-        auto world = std::make_shared<scene::World>();
-        world->add({.model = scene::loadGltf(file.file)});
-        if (world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", name));
-        if (machine.newRenderer().load(*world) != gpu::Status::ok)
-            throw Complaint(fmt::format("{}: cannot be uploaded to {}", file.file.string(), machine.deviceName()), app::kFailed);
-        for (const CameraChoice& choice : options.cameras) {
-            Shot shot;
-            shot.scene = file.name;
-            shot.camera = choice.text;
-            shot.time = timeOf(options, choice);
-            const auto camera = cameraFor(choice, file, world.get(), shot.time, options.usualCameras);
-            if (!camera) continue;
-            const render::FrameOptions wanted = frameOptions(options, *camera, shot.time);
-            capture(machine, options, *world, wanted, shot);
-            shot.world = world;
-            shot.skipMasked = options.skipMasked;
-            shot.library = &machine.renderer().library();
-            shot.add = [&renderer = machine.renderer(), world, wanted](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff,
-                                                                       uint32_t index) {
-                render::FrameOptions frame = wanted;
-                frame.method = &candidate.values;
-                frame.falloff = falloff;
-                frame.cut = index == 0;
-                return renderer.add(graph, *world, frame).visibility;
-            };
-            shot.seconds = (app::now() - begun) * 1e-3;
-            take(shot);
-            begun = app::now();
-        }
+        LoadedScene scene(machine, name);
+        for (const CameraChoice& choice : options.cameras)
+            if (auto shot = scene.shot(options, choice)) take(*shot);
     }
 }
 

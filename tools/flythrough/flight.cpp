@@ -46,13 +46,16 @@ const char* name(Filter filter) {
     return kNames[size_t(filter)];
 }
 
+bool hasHistory(const evaluate::Candidate& candidate) { return candidate.values.has("temporal") && candidate.values["temporal"] > 0.0f; }
+
 evaluate::Candidate filtered(const evaluate::Candidate& candidate, Filter filter) {
     constexpr float kHistory = 0.9f;
     evaluate::Candidate result = candidate;
     if (filter == Filter::raw)
         for (const char* blur : {"denoise", "blur", "filter"}) result.values.set(blur, 0.0f);
-    // A history that was asked for by name stays.
-    const bool asked = std::any_of(candidate.settings.begin(), candidate.settings.end(), [](const std::string& s) { return s.starts_with("temporal="); });
+    // A history that was asked for by name, or that the preset has, stays.
+    const bool asked = std::any_of(candidate.settings.begin(), candidate.settings.end(), [](const std::string& s) { return s.starts_with("temporal="); }) ||
+                       hasHistory(candidate);
     if (filter != Filter::temporal) result.values.set("temporal", 0.0f);
     else if (!asked) result.values.set("temporal", kHistory);
     return result;
@@ -142,9 +145,11 @@ std::string Flight::keyOf(const evaluate::Candidate& candidate, Filter filter) c
     scene::Hash hash;
     const Script& script = m_stage.script();
     hash.add(kMeasure).add(script.name).add(script.scene).add(m_falloff.text).add(m_settings.size.x).add(m_settings.size.y).add(m_settings.guard);
-    hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(std::string(candidate.info().id)).add(std::string(name(filter)));
+    hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(int(m_settings.still)).add(std::string(candidate.info().id)).add(std::string(name(filter)));
     const evaluate::Candidate used = filtered(candidate, filter);
     for (const float value : used.values.values()) hash.add(value);
+    for (const std::string& setting : candidate.settings)
+        if (setting.starts_with("voxel")) hash.add(setting);
     for (uint32_t frame = 0; frame < m_settings.length; ++frame) {
         const scene::Camera camera = m_stage.cameraAt(frame);
         for (const glm::vec3& v : {camera.eye, camera.target, camera.up}) hash.add(v.x).add(v.y).add(v.z);
@@ -178,6 +183,7 @@ Flight::Drawn Flight::draw(const evaluate::Candidate& candidate, uint32_t frame,
     evaluate::Machine::Ran ran = m_machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
         render::FrameOptions wanted = options(frame);
         wanted.method = &candidate.values;
+        wanted.voxels = candidate.voxels.over(wanted.voxels);
         wanted.cut = cut;
         return std::vector{m_machine.renderer().add(graph, m_stage.worldAt(frame), wanted).visibility};
     });
@@ -206,7 +212,7 @@ Part Flight::measure(const evaluate::Candidate& chosen, Filter filter) {
     }
     std::map<std::string, app::Series> times;
     std::vector<truth::Plane> pictures;
-    app::Progress progress(part.name(), m_geometry.size() + (m_settings.first == 0 ? kStillWarmUp + kStillFrames : 0));
+    app::Progress progress(part.name(), m_geometry.size() + (m_settings.still && m_settings.first == 0 ? kStillWarmUp + kStillFrames : 0));
     for (uint32_t frame = 0; frame < m_geometry.size(); ++frame) {
         progress.at(frame);
         Drawn drawn = draw(candidate, frame, frame == 0);
@@ -245,7 +251,7 @@ Part Flight::measure(const evaluate::Candidate& chosen, Filter filter) {
                                           truth::stayed(m_geometry[event - 1].frame, m_geometry[event].frame));
         part.events.push_back({event, uint32_t(lag.pixels), lag.t90, lag.ghost});
     }
-    if (m_settings.first == 0) {
+    if (m_settings.still && m_settings.first == 0) {
         truth::StaticNoise noise;
         for (uint32_t i = 0; i < kStillWarmUp + kStillFrames; ++i) {
             progress.at(m_geometry.size() + i);

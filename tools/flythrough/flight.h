@@ -12,6 +12,7 @@ namespace obscura::flythrough {
 // What is done with a method's samples before they are shown.
 enum class Filter { raw, spatial, temporal };  // nothing; its own blur; its blur and the shared temporal pass
 const char* name(Filter filter);
+bool hasHistory(const evaluate::Candidate& candidate);  // by its own values
 // The candidate with its blur and history set so.
 evaluate::Candidate filtered(const evaluate::Candidate& candidate, Filter filter);
 
@@ -25,6 +26,7 @@ struct Settings {
     std::optional<evaluate::FalloffChoice> falloff;  // instead of the script's
     std::filesystem::path out;               // pictures go to out/frames/NAME
     bool pictures = true;
+    bool still = true;                       // static noise, too
 };
 
 class Flight {

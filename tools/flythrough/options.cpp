@@ -8,6 +8,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
+#include "arguments.h"
 
 namespace obscura::flythrough {
 
@@ -39,14 +40,6 @@ void listFlythroughs() {
         fmt::print("{:<18}{} ({}{})\n", script.name, script.title, script.scene, script.events.empty() ? "" : fmt::format(", {} events", script.events.size()));
 }
 
-// Words as a shell reads them back.
-std::string shellWord(const std::string& word) {
-    if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string::npos) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
@@ -64,12 +57,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-flythrough --flythrough all --method all --print-jobs 8 --out /share/run | parallel\n"
         "  obscura-flythrough --merge /share/run/part-0,/share/run/part-1 --out /share/run/all");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::vector<std::string> methods{"hbao"}, presets{"default"}, sets, filters{"raw", "spatial", "temporal"}, merged;
-    std::string size, frames, falloff, offscreen, out = "out/flythrough", check, renew;
+    evaluate::Judged judged;
+    std::vector<std::string> filters{"raw", "spatial", "temporal"}, merged;
+    std::string size, frames, falloff, out = "out/flythrough", check, renew;
     bool list = false, noPictures = false, noVideo = false, noCache = false;
-    const auto takeAll = [](CLI::Option* option) {
-        return option->delimiter(',')->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    };
+    using evaluate::takeAll;
 
     cli.option_defaults()->group("What is flown");
     takeAll(cli.add_option("--flythrough", options.flythroughs, "By name, several with commas, or all (content/flythroughs.json; --list prints them), or FILE.json, a path that the game recorded"));
@@ -79,12 +71,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--guard", options.settings.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
 
     cli.option_defaults()->group("What is judged");
-    takeAll(cli.add_option("--method", methods, "Methods by id, or all")->capture_default_str());
-    takeAll(cli.add_option("--preset", presets, "Presets of them, or all")->capture_default_str());
-    cli.add_option("--set", sets, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    cli.add_option("--offscreen", offscreen, app::kOffScreenHelp);
+    addJudged(cli, judged);
     takeAll(cli.add_option("--modes,--filter", filters, "raw (no blur, no history), spatial (the preset's own blur), temporal (and a history)")->capture_default_str());
     cli.add_option("--falloff", falloff, "KIND:LENGTH instead of the flythrough's own");
     cli.add_option("--rays", options.settings.rays, "Rays a pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
@@ -103,10 +90,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's flicker or lag is worse than this file says");
     cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's rows when methods are named)")->excludes(checkOption);
 
-    cli.option_defaults()->group("Device");
-    cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use");
-    cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync")->check(CLI::IsMember({"off", "core", "sync"}))->capture_default_str();
-    cli.add_flag("--verbose", options.verbose, "Print what the device and the loader have to say");
+    evaluate::addDevice(cli, options.device, options.validation, options.verbose);
     cli.add_flag("--list", list, "Print the flythroughs there are");
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
@@ -128,7 +112,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (gate) {
         options.job = check.empty() ? Job::renewBaseline : Job::checkBaseline;
         options.baseline = check.empty() ? renew : check;
-        if (cli.count("--method") == 0) methods = {"all"};
+        if (cli.count("--method") == 0) judged.methods = {"all"};
     } else if (options.flythroughs.empty()) {
         throw Complaint("nothing to fly: give --flythrough NAME, or all (--list prints the names)");
     }
@@ -137,8 +121,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         for (const Script& script : scripts()) options.flythroughs.push_back(script.name);
     }
     for (const std::string& flythrough : options.flythroughs) findScript(flythrough);
-    if (!offscreen.empty()) sets.insert(sets.begin(), "offscreen=" + offscreen);
-    options.candidates = evaluate::candidates(methods, presets, sets);
+    options.candidates = evaluate::candidates(judged.methods, judged.presets, judged.allSets());
     for (const std::string& filter : filters) options.filters.push_back(filterOf(filter));
     if (*sizeOption) options.settings.size = app::sizeOf(size);
     if (!falloff.empty()) options.settings.falloff = evaluate::falloffs({falloff})[0];
@@ -156,7 +139,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                 continue;
             }
             if (word.starts_with("--print-jobs=") || word.starts_with("--out=")) continue;
-            options.rest += (options.rest.empty() ? "" : " ") + shellWord(word);
+            options.rest += (options.rest.empty() ? "" : " ") + app::shellWord(word);
         }
     }
     return options;
@@ -166,14 +149,14 @@ std::string jobList(const Options& options) {
     const std::string out = options.settings.out.string();
     const auto command = [&](uint32_t job) {
         const uint32_t first = uint32_t(uint64_t(options.settings.length) * job / options.jobs), end = uint32_t(uint64_t(options.settings.length) * (job + 1) / options.jobs);
-        return fmt::format("{} --no-video --frames {}:{} --out {}", options.rest, first, end, shellWord(fmt::format("{}/part-{}", out, job)));
+        return fmt::format("{} --no-video --frames {}:{} --out {}", options.rest, first, end, app::shellWord(fmt::format("{}/part-{}", out, job)));
     };
     std::string parts, commands;
     for (uint32_t job = 0; job < options.jobs; ++job) {
         parts += fmt::format("{}{}/part-{}", job ? "," : "", out, job);
         commands += options.slurm ? fmt::format("  {}) {} ;;\n", job, command(job)) : command(job) + "\n";
     }
-    const std::string merge = fmt::format("{} --merge {} --out {}", options.rest.substr(0, options.rest.find(' ')), shellWord(parts), shellWord(out));
+    const std::string merge = fmt::format("{} --merge {} --out {}", options.rest.substr(0, options.rest.find(' ')), app::shellWord(parts), app::shellWord(out));
     if (!options.slurm) return commands + "# then: " + merge + "\n";
     return fmt::format("#!/bin/sh\n#SBATCH --job-name=obscura-flythrough\n#SBATCH --array=0-{}\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n# then: {}\n",
                        options.jobs - 1, commands, merge);

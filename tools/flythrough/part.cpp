@@ -29,6 +29,29 @@ std::string Part::name() const {
     return text;
 }
 
+Summary summarize(const Part& part) {
+    Summary s;
+    double steps = 0.0, worst = -1.0;
+    for (const FrameRow& row : part.frames) {
+        s.eA += row.eA;
+        s.bias += row.bias;
+        if (row.eA > worst) worst = row.eA, s.worst = row.frame;
+        if (row.frame == 0) continue;
+        s.difference += row.difference;
+        s.excess += row.difference - row.referenceDifference;
+        s.flickerOfError += row.flickerOfError;
+        s.referenceFlicker += row.referenceFlicker;
+        ++steps;
+    }
+    const double frames = std::max<double>(1.0, double(part.frames.size()));
+    s.eA /= frames, s.bias /= frames;
+    if (steps > 0.0) s.difference /= steps, s.excess /= steps, s.flickerOfError /= steps, s.referenceFlicker /= steps;
+    if (part.still) s.noiseMean = part.still->mean, s.noiseP99 = part.still->p99;
+    for (const EventRow& row : part.events) s.t90 = std::max(s.t90, row.t90), s.ghost += row.ghost;
+    for (const PassRow& row : part.passes) s.milliseconds += row.median;
+    return s;
+}
+
 std::string partText(const Part& part) {
     Json json{{"key", part.key}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset}, {"settings", part.settings},
               {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width}, {"height", part.height}, {"rays", part.rays},

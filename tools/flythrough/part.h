@@ -41,6 +41,19 @@ struct Part {
     std::string name() const;          // "teleport.hbao.temporal", safe as a file name
 };
 
+// One row a part: means over its frames, worst over its events.
+struct Summary {
+    double eA = 0.0, bias = 0.0;                  // mean over frames
+    double difference = 0.0, excess = 0.0;        // mean D_A, mean F
+    double flickerOfError = 0.0, referenceFlicker = 0.0;  // mean F_e, mean F_R
+    double noiseMean = 0.0, noiseP99 = 0.0;       // static
+    uint32_t t90 = 0;                             // worst event
+    double ghost = 0.0;                           // summed over events
+    double milliseconds = 0.0;                    // medians of its passes, summed
+    uint32_t worst = 0;                           // frame of the largest eA
+};
+Summary summarize(const Part& part);
+
 std::string partText(const Part& part);
 // Nothing when the file is missing or is not one of ours.
 std::optional<Part> readPart(const std::filesystem::path& file);

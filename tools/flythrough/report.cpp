@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/arguments.h"
 #include "app/complaint.h"
 #include "app/files.h"
 #include "app/page.h"
@@ -18,29 +19,6 @@ namespace obscura::flythrough {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-Summary summarize(const Part& part) {
-    Summary s;
-    double steps = 0.0, worst = -1.0;
-    for (const FrameRow& row : part.frames) {
-        s.eA += row.eA;
-        s.bias += row.bias;
-        if (row.eA > worst) worst = row.eA, s.worst = row.frame;
-        if (row.frame == 0) continue;
-        s.difference += row.difference;
-        s.excess += row.difference - row.referenceDifference;
-        s.flickerOfError += row.flickerOfError;
-        s.referenceFlicker += row.referenceFlicker;
-        ++steps;
-    }
-    const double frames = std::max<double>(1.0, double(part.frames.size()));
-    s.eA /= frames, s.bias /= frames;
-    if (steps > 0.0) s.difference /= steps, s.excess /= steps, s.flickerOfError /= steps, s.referenceFlicker /= steps;
-    if (part.still) s.noiseMean = part.still->mean, s.noiseP99 = part.still->p99;
-    for (const EventRow& row : part.events) s.t90 = std::max(s.t90, row.t90), s.ghost += row.ghost;
-    for (const PassRow& row : part.passes) s.milliseconds += row.median;
-    return s;
-}
 
 namespace {
 
@@ -120,19 +98,12 @@ Json summaryJson(const Part& part) {
     return json;
 }
 
-// Words for a shell.
-std::string shellWord(const fs::path& path) {
-    std::string text = "'";
-    for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
 // To a temporary name, then renamed; false when ffmpeg failed.
 bool encode(const std::string& inputs, const std::string& filter, const fs::path& file) {
     fs::path temporary = file;
     temporary += ".part.mp4";
     const std::string command = fmt::format("ffmpeg -hide_banner -loglevel error -nostdin -y {} {} -c:v libx264 -preset fast -crf 14 -pix_fmt yuv420p -threads 2 {} 1>&2",
-                                            inputs, filter, shellWord(temporary));
+                                            inputs, filter, app::shellWord(temporary.string()));
     std::error_code ignored;
     if (std::system(command.c_str()) != 0) {
         fs::remove(temporary, ignored);
@@ -143,7 +114,7 @@ bool encode(const std::string& inputs, const std::string& filter, const fs::path
 }
 
 std::string sequence(const fs::path& folder, uint32_t first) {
-    return fmt::format("-framerate 30 -start_number {} -i {}", first, shellWord(folder / "%04d.png"));
+    return fmt::format("-framerate 30 -start_number {} -i {}", first, app::shellWord((folder / "%04d.png").string()));
 }
 
 }  // namespace
@@ -195,7 +166,7 @@ void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
         for (int i = 0; i < count; ++i) {
             const auto times = [](const char* side, int n) {
                 std::string text = n ? "" : "0";
-                for (int k = 0; k < n; ++k) text += (k ? "+" : "") + std::string(side) + "0";
+                for (int k = 0; k < n; ++k) text += fmt::format("{}{}0", k ? "+" : "", side);
                 return text;
             };
             layout += fmt::format("{}{}_{}", i ? "|" : "", times("w", i % columns), times("h", i / columns));

@@ -5,19 +5,6 @@
 
 namespace obscura::flythrough {
 
-// One row a part: means over its frames, worst over its events.
-struct Summary {
-    double eA = 0.0, bias = 0.0;                  // mean over frames
-    double difference = 0.0, excess = 0.0;        // mean D_A, mean F
-    double flickerOfError = 0.0, referenceFlicker = 0.0;  // mean F_e, mean F_R
-    double noiseMean = 0.0, noiseP99 = 0.0;       // static
-    uint32_t t90 = 0;                             // worst event
-    double ghost = 0.0;                           // summed over events
-    double milliseconds = 0.0;                    // medians of its passes, summed
-    uint32_t worst = 0;                           // frame of the largest eA
-};
-Summary summarize(const Part& part);
-
 std::string table(const std::vector<Part>& parts);                 // for a terminal
 std::string markdown(const std::vector<Part>& parts);              // the same for a text: a table a flythrough, a row a method and filter
 // The four CSVs, report.json, report.md and report.html.

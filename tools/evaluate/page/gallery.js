@@ -1,34 +1,12 @@
 // The gallery: one state, and functions that draw each part of the page from it.
-"use strict";
 (() => {
 const data = JSON.parse(document.getElementById("data").textContent);
-const $ = id => document.getElementById(id);
 const REFERENCE = " reference";  // stands for the reference among the pictures' names
 const state = {
   shot: 0, falloff: "", reference: "", left: REFERENCE, right: "", range: data.errorRange, thumbs: "pictures",
   sort: "eA", descending: false, only: false, filter: "",
 };
 
-// ---- small helpers ----
-function element(tag, attributes = {}, ...children) {
-  const e = document.createElement(tag);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (key.startsWith("on")) e.addEventListener(key.slice(2), value);
-    else if (value !== false && value !== undefined) e.setAttribute(key, value);
-  }
-  e.append(...children);
-  return e;
-}
-function svg(tag, attributes = {}, ...children) {
-  const e = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [key, value] of Object.entries(attributes)) key === "onclick" ? e.addEventListener("click", value) : e.setAttribute(key, value);
-  e.append(...children);
-  return e;
-}
-const unique = list => [...new Set(list)];
-const fixed = (value, digits) => Number.isFinite(value) ? value.toFixed(digits) : "";
-const signed = (value, digits) => (value >= 0 ? "+" : "") + fixed(value, digits);
-const milliseconds = value => value >= 100 ? value.toFixed(0) : value >= 10 ? value.toFixed(1) : value >= 0.1 ? value.toFixed(2) : value.toPrecision(2);
 const shot = () => data.shots[state.shot];
 const shotTitle = s => `${s.scene}, ${s.camera}${s.time ? ` at ${+s.time.toFixed(2)} s` : ""}`;
 const methodIndex = id => Math.max(0, data.methods.findIndex(m => m.id === id));
@@ -84,11 +62,6 @@ async function paintError(canvas, picture, against) {
 }
 
 // ---- the bar ----
-function fill(select, options, chosen) {
-  select.replaceChildren(...options.map(([value, text]) => element("option", {value}, text)));
-  select.value = chosen;
-  select.disabled = options.length < 2;
-}
 function choose(change) {
   Object.assign(state, change);
   const s = shot(), falloffs = unique(s.references.map(r => r.falloff));
@@ -165,7 +138,6 @@ function axis(maximum, scale, unit) {
   for (let v = 0; v <= maximum * 1.0001; v += step) ticks.push(v);
   return {ticks, text: v => `${+v.toPrecision(3)}${unit}`, x: scale};
 }
-function short(text, room = 22) { return text.length > room ? text.slice(0, room - 1) + "…" : text; }
 function rowsChart(rows, maximum, unit, drawRow) {
   const height = rows.length * LINE + 30, x = v => LEFT + (WIDTH - LEFT - 64) * v / maximum, scale = axis(maximum, x, unit);
   const root = svg("svg", {viewBox: `0 0 ${WIDTH} ${height}`, role: "img"});
@@ -222,18 +194,6 @@ function passesChart(rows) {
     root.append(svg("text", {x: x(at) + 6, y: y + 16}, milliseconds(row.milliseconds.all)));
   });
 }
-// A place for a label near its dot that covers neither another label nor a dot; far ones get a line to theirs.
-function place(dot, width, taken, dots, bounds) {
-  const near = [[9, 4], [-9 - width, 4], [-width / 2, -10], [-width / 2, 20]];
-  const far = [1, 2, 3, 4, 5, 6].flatMap(k => [[12, 4 - 14 * k], [-12 - width, 4 - 14 * k], [12, 4 + 14 * k], [-12 - width, 4 + 14 * k]]);
-  const hits = b => taken.some(t => b.x < t.x + t.width + 4 && t.x < b.x + b.width + 4 && Math.abs(b.y - t.y) < 13)
-    || dots.some(d => d.x > b.x - 5 && d.x < b.x + b.width + 5 && d.y > b.y - 15 && d.y < b.y + 6);
-  for (const [i, [dx, dy]] of [...near, ...far].entries()) {
-    const box = {x: dot.x + dx, y: dot.y + dy, width, far: i >= near.length};
-    if (box.x >= bounds.left && box.x + width <= bounds.right && box.y - 12 >= bounds.top && box.y <= bounds.bottom && !hits(box)) return box;
-  }
-  return null;
-}
 function timeChart(all) {
   const rows = all.filter(r => r.milliseconds.all > 0 && r.method !== "none");  // the picture without obscurance costs nothing
   if (!rows.length) return element("p", {class: "empty"}, "No times were measured.");
@@ -289,18 +249,14 @@ function shownRows() {
   const words = state.filter.toLowerCase().split(/\s+/).filter(Boolean);
   const rows = everyRow.filter(r => !state.only || (r.shot === state.shot && r.falloff === state.falloff && r.reference === state.reference))
     .filter(r => words.every(w => `${r.label} ${r.preset} ${r.scene} ${r.camera} ${r.falloff} ${r.reference}`.toLowerCase().includes(w)));
-  const key = state.sort, sign = state.descending ? -1 : 1;
-  const order = (a, b) => typeof a === "string" ? a.localeCompare(b, "en", {numeric: true}) : a - b;
-  return rows.map((row, i) => [row, i]).sort(([a, i], [b, j]) => sign * order(a[key], b[key]) || i - j).map(([row]) => row);
+  return sorted(rows, state);
 }
 function show(row) {
   choose({shot: row.shot, falloff: row.falloff, reference: row.reference, left: REFERENCE, right: row.label});
   $("compare").scrollIntoView();
 }
 function drawTable() {
-  const head = element("tr", {}, ...COLUMNS.map(([key, title, kind], i) => element("th", {
-    scope: "col", class: `${kind === "text" ? "text" : ""}${i ? "" : " first"}`, "aria-sort": state.sort === key ? (state.descending ? "descending" : "ascending") : "none",
-  }, element("button", {type: "button", "data-key": key, onclick: () => sortBy(key)}, title))));
+  const head = sortingHead(COLUMNS, state, key => sortTable($("table"), state, key, drawTable));
   const rows = shownRows(), worst = Math.max(...rows.map(r => r.eA), 1e-6);
   const cell = (row, [key, , kind], i) => {
     if (i === 0) return element("td", {class: "text first"}, element("button", {type: "button", onclick: () => show(row)}, row.label));
@@ -314,21 +270,8 @@ function drawTable() {
   $("table").tBodies[0].replaceChildren(...lines);
   $("count").textContent = `${rows.length} of ${everyRow.length} rows`;
 }
-function sortBy(key) {
-  const had = document.activeElement?.dataset?.key === key;
-  state.descending = state.sort === key && !state.descending;
-  state.sort = key;
-  drawTable();
-  if (had) $("table").querySelector(`button[data-key="${key}"]`).focus();
-}
 
 // ---- events ----
-function setTheme(theme) {
-  document.documentElement.dataset.theme = theme;
-  $("theme").textContent = theme === "dark" ? "Light" : "Dark";
-  $("theme").setAttribute("aria-label", theme === "dark" ? "Switch to light colours" : "Switch to dark colours");
-}
-$("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
 $("bar").addEventListener("submit", event => event.preventDefault());
 $("shot").addEventListener("change", event => choose({shot: +event.target.value}));
 for (const key of ["falloff", "reference", "left", "right"]) $(key).addEventListener("change", event => choose({[key]: event.target.value}));
@@ -339,7 +282,6 @@ $("show-errors").addEventListener("click", () => { state.thumbs = "errors"; draw
 $("only").addEventListener("change", event => { state.only = event.target.checked; drawTable(); });
 $("filter").addEventListener("input", event => { state.filter = event.target.value; drawTable(); });
 
-setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 if (data.shots.length && everyRow.length) {
   const count = (number, thing) => `${number} ${thing}${number === 1 ? "" : "s"}`;
   const number = key => unique(everyRow.map(r => r[key])).length;

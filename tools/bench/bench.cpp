@@ -1,0 +1,262 @@
+#include "bench.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "app/progress.h"
+#include "balls.h"
+#include "measure.h"
+#include "scene/hash.h"
+
+namespace obscura::bench {
+
+namespace fs = std::filesystem;
+
+bool isYardstick(const ao::MethodInfo& info) { return std::strcmp(info.id, "hbao") == 0 || std::strcmp(info.id, "mipmap") == 0; }
+
+namespace {
+
+constexpr uint32_t kMeasure = 1;  // counts changes to what is measured, so that parts of older programs are not taken up
+
+constexpr double kFlickerStart = 4.0;  // s into the scene's flythrough: under way
+
+// A row while it grows: every timed frame of every round is kept.
+struct Cell {
+    Row row;
+    size_t shot = 0;
+    const evaluate::FalloffChoice* falloff = nullptr;
+    const evaluate::Candidate* candidate = nullptr;
+    std::vector<app::Series> passes;
+    std::vector<double> own, rest;
+
+    void add(const evaluate::Drawing& drawing) {
+        for (const app::Series& pass : drawing.passes) {
+            auto known = std::find_if(passes.begin(), passes.end(), [&](const app::Series& s) { return s.name == pass.name; });
+            if (known == passes.end()) known = passes.insert(known, {pass.name, {}});
+            known->values.insert(known->values.end(), pass.values.begin(), pass.values.end());
+        }
+        own.insert(own.end(), drawing.own.begin(), drawing.own.end());
+        rest.insert(rest.end(), drawing.rest.begin(), drawing.rest.end());
+        row.rounds.push_back(app::percentile(drawing.own, 0.5));
+    }
+    Row finished() const {
+        Row result = row;
+        result.median = app::percentile(own, 0.5);
+        result.p95 = app::percentile(own, 0.95);
+        result.frame = app::percentile(rest, 0.5);
+        result.passes.clear();
+        for (const app::Series& pass : passes) result.passes.push_back({pass.name, pass.median(), pass.p95()});
+        return result;
+    }
+};
+
+// All shots of a scene, whose cells take turns.
+class SceneBench {
+public:
+    SceneBench(evaluate::Machine& machine, const Options& options, const std::string& scene, const std::string& title)
+        : m_machine(machine), m_options(options), m_title(title), m_scene(scene), m_loaded(machine, scene) {
+        for (const evaluate::CameraChoice& camera : options.what.cameras)
+            for (const glm::uvec2 size : options.sizes) {
+                evaluate::Options sized = options.what;
+                sized.size = size;
+                m_shots.push_back(std::move(*m_loaded.shot(sized, camera)));
+            }
+        for (size_t shot = 0; shot < m_shots.size(); ++shot)
+            for (const evaluate::FalloffChoice& falloff : options.what.falloffs)
+                for (const evaluate::Candidate& candidate : options.what.candidates) m_cells.push_back(cellOf(shot, falloff, candidate));
+        std::string file = m_shots.front().scene;
+        for (char& c : file)
+            if (!std::isalnum((unsigned char)c) && c != '-') c = '_';
+        m_file = options.out / "parts" / (file + ".json");
+        m_key = key();
+        if (!options.again) take();
+    }
+
+    std::vector<Row> measure() {
+        for (const evaluate::Candidate& candidate : m_options.what.candidates) m_machine.expectMethod(*m_shots.front().library, candidate.info());
+        const uint32_t rounds = m_options.what.rounds, begin = roundsDone();
+        if (begin == 0 && rounds > 0) firstLook();
+        {
+            app::Progress progress("timing " + m_title, m_cells.size() * (rounds - begin));
+            for (uint32_t round = begin; round < rounds; ++round) {
+                for (size_t i = 0; i < m_cells.size(); ++i) {
+                    progress.at((round - begin) * m_cells.size() + i, m_cells[i].row.label());
+                    m_cells[i].add(draw(m_cells[i], m_options.what.frames));
+                }
+                save();
+            }
+        }
+        if (m_options.flicker) flicker();
+        std::vector<Row> rows;
+        for (const Cell& cell : m_cells) rows.push_back(cell.finished());
+        return rows;
+    }
+
+private:
+    Cell cellOf(size_t shot, const evaluate::FalloffChoice& falloff, const evaluate::Candidate& candidate) const {
+        Cell cell;
+        cell.shot = shot;
+        cell.falloff = &falloff;
+        cell.candidate = &candidate;
+        Row& row = cell.row;
+        row.scene = m_shots[shot].scene;
+        row.camera = m_shots[shot].camera;
+        row.falloff = falloff.text;
+        row.method = candidate.info().id;
+        row.preset = candidate.preset;
+        row.settings = fmt::format("{}", fmt::join(candidate.settings, " "));
+        row.width = m_shots[shot].frame.visible().x;
+        row.height = m_shots[shot].frame.visible().y;
+        row.yardstick = isYardstick(candidate.info());
+        row.triangles = m_loaded.triangles();
+        row.reach = ao::reach(falloff.falloff);
+        row.varied = fmt::format("{}", fmt::join(candidate.varied, " "));
+        for (const std::string& name : candidate.varied)
+            if (candidate.values.has(name.c_str())) row.samples = std::max(row.samples, 1.0) * double(candidate.values[name.c_str()]);
+        return cell;
+    }
+
+    std::string key() const {
+        scene::Hash hash;
+        const evaluate::Options& what = m_options.what;
+        hash.add(kMeasure).add(m_machine.deviceName()).add(what.frames).add(what.warmUp).add(what.guard).add(what.rays.rays).add(what.rays.seed);
+        hash.add(int(what.reference.world)).add(int(what.reference.screen)).add(m_loaded.triangles());
+        for (const Cell& cell : m_cells) {
+            hash.add(cell.row.name()).add(what.voxels.cells).add(what.voxels.cellSize).add(int(what.voxels.voxelizer)).add(int(what.voxels.structure));
+            for (const float value : cell.candidate->values.values()) hash.add(value);
+        }
+        for (const evaluate::Shot& shot : m_shots) hash.add(shot.frame.depth.data(), shot.frame.depth.size() * sizeof(float));
+        if (const auto& f = m_options.flicker) hash.add(f->size.x).add(f->size.y).add(f->length);
+        for (const gpu::EmbeddedShader& shader : ao::shaders()) hash.add(shader.spirv.data(), shader.spirv.size_bytes());
+        return hash.hex();
+    }
+
+    evaluate::Drawing draw(const Cell& cell, uint32_t frames) {
+        return evaluate::draw(m_machine, m_shots[cell.shot], *cell.candidate, cell.falloff->falloff, m_options.what.warmUp, frames);
+    }
+
+    // Errors and memory: what does not change from round to round.
+    void firstLook() {
+        const ao::MethodInfo& none = *ao::methods()[0];
+        std::vector<uint64_t> bare;
+        std::vector<evaluate::References> references;
+        for (evaluate::Shot& shot : m_shots) {
+            const evaluate::Candidate nothing{ao::Values(none), "default", {}};
+            bare.push_back(evaluate::draw(m_machine, shot, nothing, m_options.what.falloffs.front().falloff, 1, 1).bytes);
+            references.push_back(referencesOf(m_machine, shot, m_options.what));
+        }
+        app::Progress progress("comparing " + m_title, m_cells.size());
+        for (size_t i = 0; i < m_cells.size(); ++i) {
+            Cell& cell = m_cells[i];
+            progress.at(i, cell.row.label());
+            const evaluate::Drawing drawing = draw(cell, 1);
+            const truth::Mask valid = m_shots[cell.shot].frame.visibleMask();
+            cell.row.bytes = drawing.bytes - std::min(drawing.bytes, bare[cell.shot]);
+            for (const evaluate::JudgedBy& reference : references[cell.shot].list) {
+                if (reference.falloff != cell.falloff->text) continue;
+                const truth::Metrics m = truth::compare(drawing.visibility, reference.visibility, valid);
+                cell.row.errors.push_back({reference.kind, m.raw.eA, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim});
+            }
+        }
+    }
+
+    // Over the scene's own flythrough, where it has one; the same for all cameras and sizes.
+    void flicker() {
+        const evaluate::SceneFile file = evaluate::findScene(m_scene);
+        if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); })) return;
+        m_shots.clear();  // the flight has a renderer of its own
+        for (const evaluate::FalloffChoice& falloff : m_options.what.falloffs) {
+            flythrough::Settings settings = *m_options.flicker;
+            settings.falloff = falloff;
+            flythrough::Flight flight(m_machine, flythrough::findScript(fmt::format("{}@{:g}", file.flythrough->string(), kFlickerStart)), settings);
+            for (const evaluate::Candidate& candidate : m_options.what.candidates) {
+                std::optional<Flicker> found;
+                for (Cell& cell : m_cells) {
+                    if (cell.candidate != &candidate || cell.falloff->text != falloff.text || cell.row.flicker) continue;
+                    if (!found) {
+                        const auto filter = flythrough::hasHistory(candidate) ? flythrough::Filter::temporal : flythrough::Filter::spatial;
+                        const flythrough::Summary summary = summarize(flight.measure(candidate, filter));
+                        found = Flicker{summary.flickerOfError, summary.referenceFlicker};
+                    }
+                    cell.row.flicker = found;
+                }
+                if (found) save();
+            }
+        }
+    }
+
+    uint32_t roundsDone() const { return uint32_t(m_cells.front().row.rounds.size()); }
+
+    void save() const {
+        Json json{{"key", m_key}, {"cells", Json::array()}};
+        for (const Cell& cell : m_cells) {
+            Json line = toJson(cell.row);
+            line["own"] = cell.own;
+            line["rest"] = cell.rest;
+            for (const app::Series& pass : cell.passes) line["times"].push_back({{"name", pass.name}, {"values", pass.values}});
+            json["cells"].push_back(std::move(line));
+        }
+        app::writeFile(m_file, json.dump() + "\n");
+    }
+
+    // What an earlier run left, if it was this very one with no more rounds.
+    void take() {
+        std::ifstream in(m_file, std::ios::binary);
+        if (!in) return;
+        try {
+            const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
+            if (json.at("key") != m_key || json.at("cells").size() != m_cells.size()) return;
+            std::vector<Cell> cells = m_cells;
+            for (size_t i = 0; i < cells.size(); ++i) {
+                const Json& line = json["cells"][i];
+                cells[i].row = rowOf(line);
+                cells[i].own = line.at("own").get<std::vector<double>>();
+                cells[i].rest = line.at("rest").get<std::vector<double>>();
+                if (line.contains("times"))
+                    for (const Json& pass : line["times"]) cells[i].passes.push_back({pass.at("name"), pass.at("values").get<std::vector<double>>()});
+                if (cells[i].row.rounds.size() > m_options.what.rounds) return;
+            }
+            m_cells = std::move(cells);
+        } catch (const Json::exception&) {}  // not one of ours: measured anew
+    }
+
+    evaluate::Machine& m_machine;
+    const Options& m_options;
+    std::string m_title, m_scene;
+    evaluate::LoadedScene m_loaded;
+    std::vector<evaluate::Shot> m_shots;
+    std::vector<Cell> m_cells;
+    fs::path m_file;
+    std::string m_key;
+};
+
+}  // namespace
+
+Results measure(const Options& options, evaluate::Machine& machine) {
+    const evaluate::Options& what = options.what;
+    app::expectFolder(options.out / "parts");
+    std::vector<std::string> scenes = what.scenes;
+    if (!options.triangles.empty()) app::expectFolder(options.out / "scenes");
+    for (const uint64_t triangles : options.triangles) scenes.push_back(writeBalls(triangles, options.out / "scenes").string());
+
+    Results results;
+    results.device = machine.deviceName();
+    results.command = options.command;
+    results.guard = what.guard;
+    results.frames = what.frames, results.warmUp = what.warmUp, results.rounds = what.rounds, results.rays = what.rays.rays;
+    if (options.flicker) results.flickerFrames = options.flicker->length, results.flickerWidth = options.flicker->size.x, results.flickerHeight = options.flicker->size.y;
+    for (size_t i = 0; i < scenes.size(); ++i) {
+        const std::string title = fmt::format("{} ({}/{})", fs::path(scenes[i]).stem().string(), i + 1, scenes.size());
+        const std::vector<Row> rows = SceneBench(machine, options, scenes[i], title).measure();
+        results.rows.insert(results.rows.end(), rows.begin(), rows.end());
+    }
+    return results;
+}
+
+}  // namespace obscura::bench

@@ -1,0 +1,15 @@
+// The measuring itself, kept in OUT/parts after every round, so that an interrupted run goes on where it stopped.
+#pragma once
+
+#include "options.h"
+#include "results.h"
+
+namespace obscura::bench {
+
+// Throws app::Complaint or scene::Error.
+Results measure(const Options& options, evaluate::Machine& machine);
+
+// A method that stands in the library to be measured against.
+bool isYardstick(const ao::MethodInfo& info);
+
+}  // namespace obscura::bench

@@ -1,0 +1,74 @@
+// Reads the command line, measures, writes; turns every failure into one line and an exit code.
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "app/files.h"
+#include "bench.h"
+#include "compare.h"
+#include "page.h"
+#include "tables.h"
+
+namespace obscura::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string textOf(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw app::Complaint(fmt::format("--table {}: no such file; name a Markdown file with the lines {} and {}", file.string(), kTableBegin, kTableEnd));
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+int run(int argc, char** argv) {
+    const auto options = parseOptions(argc, argv);
+    if (!options) return 0;
+    // What can be wrong with files is found before anything is measured.
+    if (!options->table.empty()) withTable(textOf(options->table), "", options->table), app::expectWritable(options->table);
+    std::optional<Results> before;
+    if (!options->compare.empty()) before = readResults(options->compare);
+
+    int code = 0;
+    Results results;
+    if (!options->from.empty()) {
+        results = readResults(options->from);
+    } else {
+        evaluate::expectScenes(options->what);
+        app::expectFolder(options->out);
+        evaluate::Machine machine({options->what.device, options->what.validation, options->what.verbose});
+        results = measure(*options, machine);
+        if (machine.device().validationMessages()) code = app::kInvalidUse;
+    }
+    if (!options->out.empty()) {
+        app::expectFolder(options->out);
+        app::writeFile(options->out / "bench.json", jsonText(results));
+        app::writeFile(options->out / "bench.csv", csv(results));
+        app::writeFile(options->out / "passes.csv", passesCsv(results));
+        app::writeFile(options->out / "bench.md", report(results));
+        app::writeFile(options->out / "bench.html", benchPage(results));
+        std::fputs(markdown(results).c_str(), stdout);
+        fmt::print("{}\n", (options->out / "bench.html").string());
+    }
+    if (!options->table.empty()) app::writeFile(options->table, withTable(textOf(options->table), briefTable(results), options->table));
+    if (before) {
+        Tolerances tolerances;
+        tolerances.time = options->tolerance;
+        tolerances.absolute = options->absolute;
+        const Comparison comparison = compare(*before, results, tolerances);
+        std::fputs(comparisonText(comparison, tolerances).c_str(), stdout);
+        if (!comparison.passes()) code = app::kFailed;
+    }
+    return code;
+}
+
+}  // namespace
+}  // namespace obscura::bench
+
+int main(int argc, char** argv) {
+    return obscura::app::guarded("obscura-bench", [&] { return obscura::bench::run(argc, argv); });
+}

@@ -1,0 +1,145 @@
+#include "tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/complaint.h"
+#include "front.h"
+#include "scaling.h"
+
+namespace obscura::bench {
+
+namespace {
+
+template <class T>
+void addNew(std::vector<T>& list, const T& value) {
+    if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
+}
+
+// One candidate over all shots of a size with a falloff.
+struct Line {
+    std::string label;
+    bool plain = false, yardstick = false, best = false;  // default preset; best: no other beats it
+    double logTime = 0.0, p95 = 0.0, bytes = 0.0, world = 0.0, screen = 0.0, flicker = 0.0;
+    size_t rows = 0, worlds = 0, screens = 0, flickers = 0;
+    bool timed = true;
+    std::vector<std::string> scenes;     // cells, in the order of the columns
+    double milliseconds() const { return timed ? std::exp(logTime / double(rows)) : 0.0; }
+};
+
+struct Table {
+    std::string size, falloff;
+    std::vector<std::string> places;     // "sponza", with camera where there are several
+    std::vector<Line> lines;
+};
+
+std::vector<Table> tablesOf(const Results& results) {
+    std::vector<std::string> cameras;
+    for (const Row& row : results.rows) addNew(cameras, row.camera);
+    const auto placeOf = [&](const Row& row) { return cameras.size() > 1 ? row.scene + " " + row.camera : row.scene; };
+    std::vector<Table> tables;
+    for (const Row& row : results.rows) {
+        const std::string size = fmt::format("{} x {}", row.width, row.height);
+        auto table = std::find_if(tables.begin(), tables.end(), [&](const Table& t) { return t.size == size && t.falloff == row.falloff; });
+        if (table == tables.end()) table = tables.insert(tables.end(), {size, row.falloff, {}, {}});
+        addNew(table->places, placeOf(row));
+    }
+    for (Table& table : tables)
+        for (const Row& row : results.rows) {
+            if (fmt::format("{} x {}", row.width, row.height) != table.size || row.falloff != table.falloff) continue;
+            auto line = std::find_if(table.lines.begin(), table.lines.end(), [&](const Line& l) { return l.label == row.label(); });
+            if (line == table.lines.end()) {
+                line = table.lines.insert(table.lines.end(), Line{row.label(), row.preset == "default" && row.settings.empty(), row.yardstick});
+                line->scenes.assign(table.places.size(), "");
+            }
+            ++line->rows;
+            line->timed = line->timed && row.drawsObscurance() && row.median > 0.0;
+            if (line->timed) line->logTime += std::log(row.median);
+            line->p95 = std::max(line->p95, row.median > 0.0 ? row.p95 / row.median : 0.0);
+            line->bytes = std::max(line->bytes, double(row.bytes));
+            const size_t column = size_t(std::find(table.places.begin(), table.places.end(), placeOf(row)) - table.places.begin());
+            if (const ErrorRow* e = row.against("world")) line->world += e->eA, ++line->worlds, line->scenes[column] = fmt::format("{:.4f}", e->eA);
+            if (const ErrorRow* e = row.against("screen")) line->screen += e->eA, ++line->screens;
+            if (row.flicker) line->flicker += row.flicker->ofError, ++line->flickers;
+        }
+    for (Table& table : tables) {
+        std::stable_sort(table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) { return a.milliseconds() < b.milliseconds(); });
+        double best = std::numeric_limits<double>::infinity();
+        for (Line& line : table.lines) {
+            const double error = line.worlds ? line.world / double(line.worlds) : 0.0;
+            line.best = line.timed && line.worlds && error < best;
+            if (line.best) best = error;
+        }
+    }
+    return tables;
+}
+
+std::string mean(double sum, size_t count) { return count ? fmt::format("{:.4f}", sum / double(count)) : ""; }
+
+std::string tableText(const Table& table, bool brief) {
+    std::string text = "| method | ms | p95 | MB |", rule = "|---|--:|--:|--:|";
+    for (const std::string& place : table.places) text += fmt::format(" eA {} |", place), rule += "--:|";
+    text += " eA screen | F_e |\n" + rule + "--:|--:|\n";
+    for (const Line& line : table.lines) {
+        if (brief && !line.plain && !line.best) continue;
+        const std::string name = line.best ? fmt::format("**{}**", line.label) : line.label;
+        text += fmt::format("| {}{} | {:.2f} | {:.2f} | {:.1f} |", name, line.yardstick ? " (yardstick)" : "", line.milliseconds(), line.p95, line.bytes * 1e-6);
+        for (const std::string& cell : line.scenes) text += fmt::format(" {} |", cell);
+        text += fmt::format(" {} | {} |\n", mean(line.screen, line.screens), mean(line.flicker, line.flickers));
+    }
+    return text;
+}
+
+std::string legend(const Results& r) {
+    return fmt::format(
+        "ms: median time of the method's own passes, geometric mean over the scenes, {} rounds of {} frames in turns after {} to warm up; p95: 95th percentile over the\n"
+        "median, the worst scene's; MB: device memory beyond the frame's own. eA: mean absolute error of visibility against rays through the scene's triangles, {}\n"
+        "a pixel; eA screen: against rays through the depth buffer, mean over the scenes.{} Bold: no other is both cheaper and nearer to the truth, on the mean of\n"
+        "the scenes. {}; compare times only inside the table.\n",
+        r.rounds, r.frames, r.warmUp, r.rays,
+        r.flickerFrames ? fmt::format(" F_e: flicker of error over {} frames of each scene's flythrough at {} x {}, mean.", r.flickerFrames, r.flickerWidth, r.flickerHeight) : "",
+        r.device);
+}
+
+}  // namespace
+
+std::string markdown(const Results& results) {
+    std::string text;
+    for (const Table& table : tablesOf(results)) text += fmt::format("{}**{}, {} px**\n\n{}", text.empty() ? "" : "\n", table.falloff, table.size, tableText(table, false));
+    return text;
+}
+
+std::string report(const Results& results) {
+    std::string text = fmt::format("# Time, error, flicker and memory of ambient-obscurance methods\n\n    {}\n\n{}\n{}", results.command, legend(results), markdown(results));
+    text += "\n## Fronts\n\nAt which time budgets a yardstick has less error than the best of ours that fits.\n\n";
+    for (const Front& front : fronts(results)) {
+        if (!front.both) continue;
+        if (front.gaps.empty()) text += fmt::format("- {}: none; one of ours is ahead at every budget\n", front.title());
+        for (const Gap& gap : front.gaps) text += fmt::format("- {}: {}\n", front.title(), gapText(gap, results, front.reference));
+    }
+    const std::vector<Fit> lines = fits(results);
+    if (lines.empty()) return text;
+    text += "\n## Scaling\n\ntime = factor x^exponent, least squares over logarithms, with the exponent's standard error.\n\n"
+            "| x | from | to | method | where | exponent |\n|---|--:|--:|---|---|--:|\n";
+    for (const Fit& line : lines)
+        text += fmt::format("| {} | {:g} | {:g} | {} | {} | {:.2f} ± {:.2f} |\n", line.axis, line.x.front(), line.x.back(), line.label, line.where, line.exponent, line.error);
+    return text;
+}
+
+std::string briefTable(const Results& results) {
+    const std::vector<Table> tables = tablesOf(results);
+    if (tables.empty()) throw app::Complaint("--table: nothing was measured that could stand in a table");
+    return fmt::format("{}, {} px, default presets and the best of all:\n\n{}\n{}\n    {}\n", tables.front().falloff, tables.front().size, tableText(tables.front(), true),
+                       legend(results), results.command);
+}
+
+std::string withTable(const std::string& text, const std::string& table, const std::filesystem::path& file) {
+    const size_t begin = text.find(kTableBegin), end = text.find(kTableEnd);
+    if (begin == std::string::npos || end == std::string::npos || end < begin)
+        throw app::Complaint(fmt::format("--table {}: has no place for it; put the lines {} and {} where it shall stand", file.string(), kTableBegin, kTableEnd));
+    return text.substr(0, begin) + kTableBegin + "\n" + table + text.substr(end);
+}
+
+}  // namespace obscura::bench
