@@ -19,6 +19,7 @@ MethodEntry farFieldEntry();
 MethodEntry mipmapEntry();
 MethodEntry hybridEntry();
 MethodEntry layeredEntry();
+MethodEntry gtaoEntry();
 
 namespace {
 
@@ -54,7 +55,8 @@ struct Composed {
 
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
-        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry()};
+        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(),
+                                         gtaoEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

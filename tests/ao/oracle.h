@@ -23,25 +23,31 @@ protected:
         return named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
     }
 
-    // name: "corner"; channel: "world.linear_1.5", of NAME.reference.exr. Metrics of obscurance over the valid visible pixels.
-    truth::Metrics measure(const std::string& name, const ao::Values& values, const char* falloff, const std::string& channel) {
+    // A stored frame as a room's images; `frame` says how they are to be read.
+    Room captured(const std::string& name, ao::Frame& frame) const {
         const fs::path folder = this->folder();
         if (!fs::exists(folder / (name + ".json"))) skip("no " + (folder / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
-
         const truth::CapturedFrame captured = truth::readCapture(folder / name);
         Room room;
         room.width = captured.size.x;
         room.height = captured.size.y;
         room.depth = captured.depth;
         for (const glm::vec3& n : captured.normals) room.normals.insert(room.normals.end(), {n.x, n.y, n.z, 0.0f});
-        ao::Frame frame = room.frame();
+        frame = room.frame();
         frame.guard = {captured.guard.x, captured.guard.y};
         frame.skyDepth = captured.skyDepth;
         std::memcpy(frame.projection, &captured.projection[0][0], sizeof(frame.projection));
+        return room;
+    }
 
+    // name: "corner"; channel: "world.linear_1.5", of NAME.reference.exr. Metrics of obscurance over the valid visible pixels.
+    truth::Metrics measure(const std::string& name, const ao::Values& values, const char* falloff, const std::string& channel) {
+        ao::Frame frame;
+        const Room room = captured(name, frame);
+        const truth::CapturedFrame captured = truth::readCapture(folder() / name);
         truth::Plane visibility(captured.visible().x, captured.visible().y);
         visibility.values = run(room, frame, values, falloff);
-        truth::Plane reference = truth::readExr(folder / (name + ".reference.exr")).plane(channel);
+        truth::Plane reference = truth::readExr(folder() / (name + ".reference.exr")).plane(channel);
         for (truth::Plane* plane : {&visibility, &reference})
             for (float& v : plane->values) v = 1.0f - v;  // both come as obscurance
         const truth::Metrics metrics = truth::compare(visibility, reference, truth::Mask(captured.visibleMask()));

@@ -48,7 +48,8 @@ const MethodInfo kInfo{"hbao",
                        "Raises a horizon along directions on the screen. The yardstick of the papers.",
                        kDepth | kNormals,
                        {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)}};
+                       {kPresets, std::size(kPresets)},
+                       true};
 
 class Hbao final : public Method {
 public:

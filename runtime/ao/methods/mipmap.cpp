@@ -31,7 +31,8 @@ const MethodInfo kInfo{"mipmap",
                        "Far samples from a depth pyramid: what far_field is compared with.",
                        kDepth | kNormals,
                        {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)}};
+                       {kPresets, std::size(kPresets)},
+                       true};
 
 class Mipmap final : public Method {
 public:

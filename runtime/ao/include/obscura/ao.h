@@ -61,6 +61,7 @@ struct MethodInfo {
     uint32_t needs;        // Needs it cannot do without (missing normals are reconstructed)
     List<Parameter> parameters;
     List<Preset> presets;
+    bool yardstick = false;  // here to be compared with; others' published method, not one this library is about
 };
 
 // All methods, in the order keys and menus show them. Static storage.

@@ -1,0 +1,122 @@
+// Ground-truth ambient occlusion [Jimenez, Wu, Pesce, Jarabo: Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016],
+// as XeGTAO publishes it [Strugar, McCalla 2021]: what others use, to be compared with. The hemisphere is cut into slices through the
+// view ray; in each the normal's projection has length L and lies at the angle g, and both sides are searched for the horizon, the
+// largest cosine c of an angle to the view ray. With h = -acos c and acos c,
+//     visibility = 1/N sum over slices of L/4 sum over both sides of (cos g + 2 h sin g - cos(2h - g))        [Jimenez 2016, eq. 7]
+// A sample at distance d counts by mixing: c = mix(cos(g +- pi/2), its cosine, rho(d)). XeGTAO fits rest to ray tracing: the reach is 1.457
+// times as long, L is drawn to 1 by a twentieth, the result is raised to 2.2 and is at least 0.03. Samples are denser near the pixel,
+// far ones come from coarser depths, noise is R2 along a Hilbert curve, and a 5x5 blur with edges takes it out.
+//
+// Differences: the falloff is the shared type, stretched by `radius_scale`; `ramp:0.385:1` is XeGTAO's own for r = 1 m. Arc cosines are
+// exact to 7e-5 (XeGTAO's to 0.01 and more), depths 32 bits, texels of coarser levels those that hold the pixel at every size.
+//
+// `weighting` arcs goes further, off by default: each sample that raises the horizon blocks what it newly covers, by its own rho,
+//     A = 1/N sum over slices and sides, over samples that raise the horizon of rho(d) (arc(h before) - arc(h)),
+// and none does that the tangent plane rules out; `axis` makes slices even around the view ray.
+//
+// Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: depths, horizons, denoise twice.
+#include <cmath>
+#include <iterator>
+
+#include "ao/depth_mips.h"
+#include "ao/edge_blur.h"
+#include "ao/resolve.h"
+
+namespace obscura::ao {
+namespace {
+
+struct Constants {  // horizons.comp
+    shared::FalloffBlock falloff;
+    uint32_t slices, steps;
+    float distribution, mipOffset;
+    float power, least;
+    uint32_t rayAxis;
+};
+
+constexpr float kNearRange = 0.75f;  // of depth levels: what is so many reaches nearer than the farthest is left out
+
+enum Blur : uint32_t { kNone, kEdges, kSurface };
+const char* const kWeightings[] = {"horizon", "arcs"};
+const char* const kAxes[] = {"screen", "view ray"};
+const char* const kBlurs[] = {"none", "edges", "surface"};
+const Parameter kParameters[] = {
+    {"slices", "", 1, 32, 3, true, {}, "Slices of the hemisphere through the view ray; cost grows with slices x steps."},
+    {"steps", "", 1, 32, 3, true, {}, "Samples to each side of a slice, out to the falloff's reach."},
+    {"radius_scale", "", 0.3f, 3, 1.457f, false, {}, "How much longer the falloff is made, against what samples miss."},
+    {"weighting", "", 0, 1, 0, true, {kWeightings, 2}, "How far samples count less: by mixing their horizon as published, or each for the arc that it newly covers."},
+    {"axis", "", 0, 1, 0, true, {kAxes, 2}, "Where slices lie evenly: on the screen as published, or around each pixel's view ray, which is right off the picture's centre."},
+    {"distribution", "", 1, 3, 2, false, {}, "How samples lie along a slice: 1 evenly, above that denser near the pixel."},
+    {"mip_offset", "", 0, 30, 3.3f, false, {}, "Samples farther than 2 to this, px, come from coarser depths: kinder to caches, softer."},
+    {"power", "", 0.5f, 5, 2.2f, false, {}, "Visibility is raised to this."},
+    {"floor", "", 0, 1, 0.03f, false, {}, "Least visibility."},
+    {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "5x5 over the noise: cut at edges of depth as published, or along the surface."},
+};
+const Setting kLow[] = {{"slices", 1}, {"steps", 2}};
+const Setting kMedium[] = {{"slices", 2}, {"steps", 2}};
+const Setting kUltra[] = {{"slices", 9}};
+const Setting kTuned[] = {{"radius_scale", 1.2f}, {"weighting", 1}, {"axis", 1}, {"power", 1.6f}, {"floor", 0}};
+const Preset kPresets[] = {
+    {"default", "3 slices x 3 steps a side, XeGTAO's high.", {}},
+    {"low", "XeGTAO's low: 1 x 2.", {kLow, std::size(kLow)}},
+    {"medium", "XeGTAO's medium: 2 x 2.", {kMedium, std::size(kMedium)}},
+    {"high", "XeGTAO's high: 3 x 3.", {}},
+    {"ultra", "XeGTAO's ultra: 9 x 3.", {kUltra, std::size(kUltra)}},
+    {"tuned", "3 x 3 with arcs that count one by one and slices around the view ray.", {kTuned, std::size(kTuned)}},
+};
+const MethodInfo kInfo{"gtao",
+                       "Ground-truth ambient occlusion",
+                       "Jimenez, Wu, Pesce, Jarabo: Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016; XeGTAO, Strugar, McCalla 2021",
+                       "Horizons of slices through the view ray, integrated in closed form.",
+                       kDepth | kNormals,
+                       {kParameters, std::size(kParameters)},
+                       {kPresets, std::size(kPresets)},
+                       true};
+
+class Gtao final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<Gtao>();
+        for (uint32_t arcs = 0; arcs < 2; ++arcs)
+            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp", {{0, arcs}}, result->m_horizons[arcs]) != gpu::Status::ok) return nullptr;
+        if (EdgeBlur::create(device, shaders, result->m_edgeBlur) != Status::ok) return nullptr;
+        if (DepthMips::create(device, shaders, DepthMips::Filter::farthest, result->m_depths) != Status::ok) return nullptr;
+        if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
+        return result;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        const auto& visible = inputs.view.visible;
+        const Constants constants{stretched(inputs.falloff, values["radius_scale"]), values.count("slices"), values.count("steps"), values["distribution"],
+                                  values["mip_offset"], values["power"], values["floor"], values.count("axis")};
+        const graph::ImageId depths = m_depths.add(graph, inputs, "gtao.depths", kNearRange * constants.falloff.reach);
+        const graph::ImageId noisy = graph.image("gtao.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});
+        graph.pass("gtao.horizons", m_horizons[values.count("weighting")]).read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy)
+            .constants(constants).dispatch(visible.x, visible.y);
+
+        const uint32_t blur = values.count("denoise");
+        const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == kEdges, "gtao.denoise");
+        return blur == kSurface ? m_denoise.add(graph, inputs, visibility, "gtao.blur") : visibility;
+    }
+
+    Blocking blocking(const Inputs& inputs, const Values& values) const override { return {inputs.falloff.reach * values["radius_scale"], Blocking::kEndless}; }
+
+private:
+    static shared::FalloffBlock stretched(shared::FalloffBlock rho, float factor) {
+        float power = 1.0f;
+        for (float* c : {&rho.c1, &rho.c2, &rho.c3, &rho.c4, &rho.c5}) *c /= power *= factor;
+        rho.decay /= factor;
+        rho.reach *= factor;
+        return rho;
+    }
+
+    DepthMips m_depths;
+    gpu::Program m_horizons[2];  // by weighting
+    EdgeBlur m_edgeBlur;
+    Denoise m_denoise;
+};
+
+}  // namespace
+
+MethodEntry gtaoEntry() { return {&kInfo, &Gtao::create}; }
+
+}  // namespace obscura::ao

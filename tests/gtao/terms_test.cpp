@@ -1,0 +1,64 @@
+// What arcs that count one by one promise beyond the published method.
+#include "layered/solids.h"
+
+namespace obscura::test {
+namespace {
+
+using Kind = Solid::Kind;
+
+class Terms : public MethodTest {
+protected:
+    Terms() : MethodTest("gtao") {}
+    static Room roomOf(const std::vector<Solid>& solids) {
+        Room room = frameOf(solids, 200, 120, 20);
+        room.thickness.clear();
+        room.second.clear();
+        return room;
+    }
+};
+
+TEST_F(Terms, arcsFindNothingOnWhatIsConvexAndAlone) {
+    const std::vector<std::vector<Solid>> worlds = {{{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}},
+                                                    {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}},
+                                                    {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
+                                                    {{Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}},
+                                                    {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
+    for (size_t i = 0; i < worlds.size(); ++i) EXPECT_LT(highest(run(roomOf(worlds[i]), values({}, "tuned"), "ramp:0.385:1")), 0.5f / 255.0f) << "world " << i;
+    // The published horizon does: nearest texels of a bare floor raise it.
+    EXPECT_GT(mean(run(roomOf(worlds[0]), values({}), "ramp:0.385:1")), 0.001);
+}
+
+// A floor before a wall, at places whose obscurance rays tell: slices around the view ray make up the hemisphere.
+TEST_F(Terms, arcsBesideAWall) {
+    const std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}};
+    const Room room = roomOf(world);
+    ao::Falloff rho;
+    ASSERT_TRUE(ao::parseFalloff("ramp:0.385:1", rho));
+    const Picture fine = run(room, values({{"slices", 16}, {"steps", 32}, {"mip_offset", 30}, {"denoise", 0}, {"radius_scale", 1}, {"power", 1}}, "tuned"), "ramp:0.385:1");
+    int places = 0;
+    for (uint32_t y = room.guard; y < room.height - room.guard; ++y) {
+        double found = 0.0, expected = 0.0;
+        for (uint32_t x = 60; x < 140; x += 10) {
+            const glm::vec3 p = pointAt(room, x, y);
+            if (p.y > -1.49f || p.z < -4.9f || p.z > -4.2f) continue;
+            found += fine[size_t(y - room.guard) * room.visibleWidth() + x - room.guard] / 8.0;
+            expected += worldObscurance(world, p, {0, 1, 0}, rho, 1024) / 8.0;
+        }
+        places += expected > 0.02;
+        EXPECT_NEAR(found, expected, 0.012) << "row " << y;
+    }
+    EXPECT_GE(places, 2);
+}
+
+TEST_F(Terms, aLongerScaleDarkens) {
+    const Room room = roomOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}});
+    for (const char* preset : {"default", "tuned"}) {
+        const double once = mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:1")), twice = mean(run(room, values({{"radius_scale", 2}}, preset), "quadratic:1"));
+        EXPECT_GT(twice, 1.2 * once) << preset;
+        // A falloff of twice the length is the same.
+        EXPECT_NEAR(mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:2")), twice, 1e-4) << preset;
+    }
+}
+
+}  // namespace
+}  // namespace obscura::test
