@@ -136,8 +136,8 @@ TEST(FarFieldGrid, levelsDoNotOverlapAndOppositesMirror) {
     for (const ao::Averaging averaging : {ao::Averaging::none, ao::Averaging::prefixSums, ao::Averaging::pyramid}) {
         for (const shared::uvec2 size : {shared::uvec2{8, 8}, {97, 61}, {384, 216}, {1536, 864}, {4916, 2766}}) {
             for (const uint32_t directions : {4u, 7u, 8u, 18u, 32u}) {
-                const ao::FarFieldGrid grid = ao::farFieldGrid(size, directions, 5, 1, averaging);
-                EXPECT_LE(grid.bytes, ao::kLargestBuffer);
+                const ao::FarFieldGrid grid = ao::farFieldGrid(size, directions, 5, 1, averaging, 16384);
+                EXPECT_LE(grid.bytes, ao::kMostBytes);
                 uint64_t end = 0;
                 for (uint32_t k = 0; k < directions; ++k) {
                     const shared::Direction& d = grid.directions[k];
@@ -166,11 +166,11 @@ TEST(FarFieldGrid, memory) {
     for (const shared::uvec2 size : {shared::uvec2{768, 432}, {1536, 864}, {2304, 1296}, {4916, 2766}}) {
         for (const auto& [directions, interval, averaging, name] : {std::tuple{8u, 5u, ao::Averaging::pyramid, "default"}, {18u, 5u, ao::Averaging::pyramid, "fast"},
                                                                     {8u, 10u, ao::Averaging::prefixSums, "paper_8x2"}, {16u, 10u, ao::Averaging::prefixSums, "paper_16x2"}}) {
-            const ao::FarFieldGrid grid = ao::farFieldGrid(size, directions, interval, 1, averaging);
+            const ao::FarFieldGrid grid = ao::farFieldGrid(size, directions, interval, 1, averaging, 16384);
             printf("%4ux%-4u %-10s K=%-2u B0=%-2u %6.1f\n", size.x, size.y, name, directions, grid.interval, double(grid.bytes) * 1e-6);
         }
     }
-    EXPECT_LT(ao::farFieldGrid({1536, 864}, 8, 5, 1, ao::Averaging::pyramid).bytes, 24'000'000u);
+    EXPECT_LT(ao::farFieldGrid({1536, 864}, 8, 5, 1, ao::Averaging::pyramid, 16384).bytes, 24'000'000u);
 }
 
 }  // namespace

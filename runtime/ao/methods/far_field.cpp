@@ -78,10 +78,12 @@ public:
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         for (uint32_t i = 0; i < 4; ++i) {
             const bool thin = i == uint32_t(Averaging::none) || i == uint32_t(Averaging::direct);
-            if (gpu::Program::compute(device, shaders, "ao/far_field/scan.comp", {{0, i}}, result->m_scan[i]) != gpu::Status::ok) return nullptr;
-            if (gpu::Program::compute(device, shaders, "ao/far_field/obscurance.comp", {{0, i}, {1, 0}}, result->m_obscurance[i]) != gpu::Status::ok) return nullptr;
-            if (thin && gpu::Program::compute(device, shaders, "ao/far_field/obscurance.comp", {{0, i}, {1, 1}}, result->m_thin[i]) != gpu::Status::ok) return nullptr;
-            if (gpu::Program::compute(device, shaders, "ao/far_field/interleaved.comp", {{0, i}}, result->m_interleaved[i]) != gpu::Status::ok) return nullptr;
+            const auto make = [&](const char* pass, std::initializer_list<gpu::Constant> constants, gpu::Program& program) {
+                const char* end = i == uint32_t(Averaging::prefixSums) ? "_sums.comp" : ".comp";
+                return gpu::Program::compute(device, shaders, std::string("ao/far_field/") + pass + end, constants, program) == gpu::Status::ok;
+            };
+            if (!make("scan", {{0, i}}, result->m_scan[i]) || !make("obscurance", {{0, i}, {1, 0}}, result->m_obscurance[i]) ||
+                !make("interleaved", {{0, i}}, result->m_interleaved[i]) || (thin && !make("obscurance", {{0, i}, {1, 1}}, result->m_thin[i]))) return nullptr;
         }
         const struct { const char* name; gpu::Program* program; } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid},
                                                                                 {"box_average", &result->m_boxAverage}, {"blur", &result->m_blur}};
@@ -98,7 +100,7 @@ public:
         auto averaging = Averaging(values.count("averaging"));
         if (thickness > 0.0f && averaging != Averaging::direct) averaging = Averaging::none;
         const uint32_t directions = std::min(sharedOut(values.count("directions"), side), 32u / (side * side) * side * side), lineStep = 1u << values.count("lines");
-        const FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging);
+        const FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, graph.device().caps().maxImageSize);
         const float slope = values["slope"];
         const float connections[] = {0.0f, 1.0f, 0.75f};
         shared::FarFieldConstants constants{};
@@ -118,7 +120,8 @@ public:
         constants.jitter = values["jitter"];
 
         const graph::BufferId grids = graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
-        const graph::BufferId cells = averaging == Averaging::direct ? grids : graph.buffer("far_field.cells", grid.bytes);  // something to bind
+        graph::ImageId cells = inputs.normals;  // something to bind where there are none
+        if (averaging != Averaging::direct) cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
         const uint32_t run = averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1);
         if (averaging != Averaging::direct) graph.pass("far_field.scan", m_scan[uint32_t(averaging)]).read(inputs.viewBlock).read(inputs.depth).read(grids).write(cells)
             .constants(constants).dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
@@ -141,7 +144,8 @@ public:
 
 private:
     struct Scanned {
-        graph::BufferId grids, cells;
+        graph::BufferId grids;
+        graph::ImageId cells;
         graph::ImageId table;
         Averaging averaging;
         shared::FarFieldConstants constants;

@@ -36,7 +36,10 @@ FarFieldGrid gridOf(shared::uvec2 size, uint32_t directions, uint32_t interval, 
         grid.intervals = std::max(grid.intervals, d.intervals);
         grid.directions.push_back(d);
     }
-    grid.bytes = cells * (averaging == Averaging::pyramid ? 4 : averaging == Averaging::prefixSums ? 12 : 8);
+    const bool sums = averaging == Averaging::prefixSums;
+    grid.format = sums ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_UINT;
+    grid.rows = uint32_t((cells + shared::kCellsWide - 1) / shared::kCellsWide);
+    grid.bytes = uint64_t(grid.rows) * shared::kCellsWide * (sums ? 16 : 4);
     return grid;
 }
 
@@ -63,10 +66,10 @@ graph::ImageId FalloffTable::add(graph::Graph& graph, const Inputs& inputs, cons
     return table;
 }
 
-FarFieldGrid farFieldGrid(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging) {
+FarFieldGrid farFieldGrid(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging, uint32_t mostRows) {
     for (;; ++interval) {
         FarFieldGrid grid = gridOf(size, directions, interval, lineStep, averaging);
-        if (grid.bytes <= kLargestBuffer) return grid;
+        if (grid.bytes <= kMostBytes && grid.rows <= mostRows) return grid;
     }
 }
 

@@ -24,15 +24,18 @@ private:
 
 enum class Averaging : uint32_t { none, prefixSums, pyramid, direct };  // direct: points are single texels, no scan
 
-// The grids of K directions over a picture, all levels, one after the other in one buffer.
+// The grids of K directions over a picture, all levels, one after the other in one image.
 struct FarFieldGrid {
     std::vector<shared::Direction> directions;
-    uint32_t interval = 0;     // B0, px: widened until the buffer fits kLargestBuffer
+    uint32_t interval = 0;     // B0, px: widened until the image is no larger than allowed
     uint32_t levels = 1;
-    uint64_t bytes = 0;        // of all cells
+    VkFormat format = VK_FORMAT_R32_UINT;  // of a cell: a point in two halves, or a prefix sum
+    uint32_t rows = 0;         // of kCellsWide cells
+    uint64_t bytes = 0;
     uint32_t lines = 0, intervals = 0;  // most of any direction
 };
-inline constexpr uint64_t kLargestBuffer = 1u << 27;  // the least maxStorageBufferRange that Vulkan promises
-FarFieldGrid farFieldGrid(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging);
+inline constexpr uint64_t kMostBytes = 1u << 28;
+FarFieldGrid farFieldGrid(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging,
+                           uint32_t mostRows);
 
 }  // namespace obscura::ao

@@ -20,35 +20,34 @@ vec3 tableDifference(float phi1, float phi2, float v) {
 }
 
 struct Horizon {
-    float cosine;   // of its zenith angle
+    float square;   // the cosine of its zenith angle, squared, with its sign: tells without a root what raises it
+    float angle;
     vec2 point;     // the last visible point, from the receiver; (u, z)
     float follows;  // connection once there is such a point
     float blocked;  // what was gained, times |n_k|
 };
-Horizon horizonAt(float cosine) { return Horizon(cosine, vec2(0.0), 0.0, 0.0); }
+Horizon horizonAt(float cosine) { return Horizon(cosine * abs(cosine), acosOf(cosine), vec2(0.0), 0.0, 0.0); }
 
-// Whether `point`, from the receiver, raises the horizon. Four points in five do not, and they are told by this alone: walkers search for the
-// next that does, then raise(). What lies beyond the zenith (u < 0) belongs to other sectors.
-bool raises(Horizon h, vec2 point) { return point.x > 0.0 && point.y * inversesqrt(dot(point, point)) > h.cosine; }
+// Whether a point in direction `to` (any length) from the receiver raises the horizon. Four points in five do not, and they are told by this
+// alone: walkers search for the next that does, then raise(). What lies beyond the zenith (u < 0) belongs to other sectors.
+bool raises(Horizon h, vec2 to) { return to.x > 0.0 && to.y * abs(to.y) > h.square * dot(to, to); }
 
 // `point` from the receiver, `slab` away from the camera (any length), both (u, z): along the sector and along the zenith. n: the normal
 // projected on this plane, not normalised. `found` false: there was no such point.
 void raise(inout Horizon h, vec2 point, vec2 slab, bool found, vec2 n, float connection, float unit) {
     point.x = max(point.x, 1e-9);
-    float length2 = dot(point, point), inverse = inversesqrt(length2);
-    vec2 to = point * inverse, before = h.point - point;
-    slab *= inversesqrt(max(dot(slab, slab), 1e-30));
-    before *= inversesqrt(max(dot(before, before), 1e-30));
-    vec2 line = mix(slab, before, h.follows);
-    line *= inversesqrt(max(dot(line, line), 1e-30));
-    float sine = line.x * to.y - line.y * to.x;  // of phi2 = c - theta
-    float phi2 = acosOf(dot(line, to)), phi1 = max(phi2 - (acosOf(h.cosine) - acosOf(to.y)), 0.0);
-    float b = max(sine, 0.0) * length2 * inverse;
+    vec2 before = h.point - point;
+    float longer = sqrt(max(dot(slab, slab), 1e-30) / max(dot(before, before), 1e-30));
+    vec2 line = slab * (1.0 - h.follows) + before * (h.follows * longer);  // the mean of two directions, as long as the slab or shorter
+    float inverse2 = 1.0 / max(dot(line, line), 1e-30), area = max(line.x * point.y - line.y * point.x, 0.0);
+    float phi2 = atanOf(area, dot(line, point)), angle = atanOf(point.x, point.y), phi1 = max(phi2 - (h.angle - angle), 0.0);
+    float b = area * sqrt(inverse2);
     vec3 a = tableDifference(min(phi1, phi2), phi2, b / (b + unit));
-    vec2 twice = vec2(2.0 * line.x * line.y, line.y * line.y - line.x * line.x);  // sin 2c, cos 2c
+    vec2 twice = vec2(2.0 * line.x * line.y, line.y * line.y - line.x * line.x) * inverse2;  // sin 2c, cos 2c
     float gained = 0.5 * ((twice.x * n.y - twice.y * n.x) * a.y - (twice.y * n.y + twice.x * n.x) * a.z + n.x * a.x);
     h.blocked += found ? gained : 0.0;
-    h.cosine = found ? to.y : h.cosine;
+    h.square = found ? point.y * abs(point.y) / dot(point, point) : h.square;
+    h.angle = found ? angle : h.angle;
     h.point = found ? point : h.point;
     h.follows = found ? connection : h.follows;
 }

@@ -16,6 +16,8 @@ struct Direction {
 };
 OBSCURA_SHARED_SIZE(Direction, 32);
 
+const uint kCellsWide = 4096u;  // texels a row of the image that holds all directions' cells one after the other; every device has as many
+
 const uint kNearPart = 1u, kFarPart = 2u;
 struct FarFieldConstants {
     uint directions;     // K

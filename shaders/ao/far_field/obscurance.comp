@@ -1,37 +1,4 @@
-// Obscurance: every sector of a pixel, near and far [Timonen 2013, alg. 2].
-// In: linear depth, packed normals, directions, cells, the falloff's table. Out: visibility.
+// Obscurance, with cells that are points.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "ao/far_field/layout.h"
-#include "shared/octahedral.glsl"
-#include "shared/view.h"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kAveraging = 2;
-layout(constant_id = 1) const uint kThin = 0;
-layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
-layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
-layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
-layout(set = 0, binding = 3, std430) readonly buffer Directions { Direction directionsOf[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Cells { uint cells[]; };
-layout(set = 0, binding = 5, rgba32ui) uniform readonly uimage2D table;
-layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants { FarFieldConstants constants; };
-#include "ao/far_field/sectors.glsl"
-
-void main() {
-    View view = viewBlock;  // copies, so that the loops hold them in registers
-    FarFieldConstants c = constants;
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
-    ivec2 texel = p + ivec2(view.guard);
-    float z = imageLoad(depth, texel).x;
-    if (isSky(view, z)) {
-        imageStore(visibility, p, vec4(1.0));
-        return;
-    }
-    Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
-    Turn turn = jittered(turnOf(c), view, texel, c);
-    vec2 sum = vec2(0.0);
-    for (uint k = 0u; k < c.directions; k += c.stride) sum += sectorOf(r, k, c, turn, view.skyDepth);
-    imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));
-}
+#include "obscurance.glsl"

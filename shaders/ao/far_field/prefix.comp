@@ -5,20 +5,21 @@
 #include "ao/far_field/grid.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Directions { Direction directionsOf[]; };
-layout(set = 0, binding = 1, std430) buffer Cells { float cells[]; };
+#define SUMS
+#define CELLS_BINDING 1
+#define CELLS_ACCESS
+#include "ao/far_field/cells.glsl"
 layout(push_constant) uniform Constants { FarFieldConstants constants; };
 
 void main() {
     Direction d = directionsOf[gl_GlobalInvocationID.z];
     uint level = gl_GlobalInvocationID.y, intervals = d.intervals >> level, j = gl_GlobalInvocationID.x;
     if (j >= intervals) return;
-    uint at = (levelBase(d, level, kPrefix) + j) * 3u;
-    vec3 sum = vec3(0.0);
+    uint at = levelBase(d, level, kPrefix) + j * d.lines;
+    vec4 sum = vec4(0.0);
     for (uint line = 0u; line < d.lines; ++line) {
-        sum += vec3(cells[at], cells[at + 1u], cells[at + 2u]);
-        cells[at] = sum.x;
-        cells[at + 1u] = sum.y;
-        cells[at + 2u] = sum.z;
-        at += intervals * 3u;
+        ivec2 cell = texelOf(at + line);
+        sum += imageLoad(cells, cell);
+        imageStore(cells, cell, sum);
     }
 }

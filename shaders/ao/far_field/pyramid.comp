@@ -6,7 +6,9 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, std430) readonly buffer Directions { Direction directionsOf[]; };
-layout(set = 0, binding = 2, std430) buffer Cells { uint cells[]; };
+#define CELLS_BINDING 2
+#define CELLS_ACCESS
+#include "ao/far_field/cells.glsl"
 layout(push_constant) uniform Constants {
     FarFieldConstants constants;
     uint from;
@@ -35,7 +37,7 @@ void main() {
             for (uint i = 0u; i < 2u; ++i) best2[i] = vec2(kNothing);
             for (uint i = 0u; i < side; ++i) {
                 uint j = corner.y + i;
-                vec2 point = unpackHalf2x16(cells[levelBase(d, from, kPyramid) + j * lines + line]);
+                vec2 point = unpackHalf2x16(imageLoad(cells, texelOf(levelBase(d, from, kPyramid) + j * lines + line)).x);
                 best1[i >> 1u] = max(best1[i >> 1u], heightsOf(axis, c, point, middleOf(d, width, j)));
             }
             for (uint i = 0u; i < 4u; ++i) best2[i >> 1u] = max(best2[i >> 1u], best1[i]);
@@ -44,16 +46,16 @@ void main() {
                 vec2 point = pointOf(axis, c, best1[i], middleOf(d, 2.0 * width, (corner.y >> 1u) + i));
                 mean1[i] = (l & 1u) == 0u ? point : mean1[i] + point;
                 if ((l & 1u) == 1u)
-                    cells[levelBase(d, from + 1u, kPyramid) + ((corner.y >> 1u) + i) * (lines >> 1u) + (line >> 1u)] = packPoint(mean1[i] * 0.5);
+                    imageStore(cells, texelOf(levelBase(d, from + 1u, kPyramid) + ((corner.y >> 1u) + i) * (lines >> 1u) + (line >> 1u)), uvec4(packPoint(mean1[i] * 0.5)));
             }
             for (uint i = 0u; i < side / 4u; ++i) {
                 vec2 point = pointOf(axis, c, best2[i], middleOf(d, 4.0 * width, (corner.y >> 2u) + i));
                 mean2[i] = (l & 3u) == 0u ? point : mean2[i] + point;
                 if ((l & 3u) == 3u)
-                    cells[levelBase(d, from + 2u, kPyramid) + ((corner.y >> 2u) + i) * (lines >> 2u) + (line >> 2u)] = packPoint(mean2[i] * 0.25);
+                    imageStore(cells, texelOf(levelBase(d, from + 2u, kPyramid) + ((corner.y >> 2u) + i) * (lines >> 2u) + (line >> 2u)), uvec4(packPoint(mean2[i] * 0.25)));
             }
             mean3 += pointOf(axis, c, best3, middleOf(d, 8.0 * width, corner.y >> 3u));
         }
-        if (side == 8u) cells[levelBase(d, from + 3u, kPyramid) + (corner.y >> 3u) * (lines >> 3u) + (corner.x >> 3u)] = packPoint(mean3 * 0.125);
+        if (side == 8u) imageStore(cells, texelOf(levelBase(d, from + 3u, kPyramid) + (corner.y >> 3u) * (lines >> 3u) + (corner.x >> 3u)), uvec4(packPoint(mean3 * 0.125)));
     }
 }

@@ -36,12 +36,6 @@ struct Segment {
     float exit;        // pixels along the direction to the picture's edge
     vec2 scale;
 };
-float atanOf(float y, float x) {  // y >= 0; error below 1e-5
-    float t = min(y, abs(x)) / max(max(y, abs(x)), 1e-20), t2 = t * t;
-    float r = t * (0.9998660 + t2 * (-0.3302995 + t2 * (0.1801410 + t2 * (-0.0851330 + t2 * 0.0208351))));
-    r = y > abs(x) ? 0.5 * kPi - r : r;
-    return x < 0.0 ? kPi - r : r;
-}
 // `along`, unit, times `stretch` is a step of one pixel along the sector's direction. `width`: cosine and sine of half the segment's width.
 Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     Segment s;
@@ -63,10 +57,11 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     s.scale = r.scale;
     return s;
 }
-// From the receiver.
-vec2 pointAt(Segment s, float depth, float r) {
-    return vec2((depth * s.scale.x + s.scale.y) * r * s.du, depth * (s.z0 + r * s.dz) - s.origin);
-}
+// From the receiver. `across`: metres along the sector's direction, parallel to the picture, from the receiver's line of sight at that depth,
+// in pixels' units: r pixels away it is (depth * scale.x + scale.y) r. Linear in all three, so any multiple of them, with `over` how many
+// times, gives the point's direction without a division.
+vec2 seenAt(Segment s, float across, float depth, float over) { return vec2(across * s.du, depth * s.z0 + across * s.dz - over * s.origin); }
+vec2 pointAt(Segment s, float depth, float r) { return seenAt(s, (depth * s.scale.x + s.scale.y) * r, depth, 1.0); }
 // The direction away from the camera at such a point, any length.
 vec2 slabAt(Segment s, vec2 point) { return vec2(point.x * s.scale.x, point.y + s.origin); }
 

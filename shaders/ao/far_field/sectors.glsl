@@ -31,12 +31,14 @@ struct Place {
     float along;  // pixels from the grid's first interval
     float line;   // lines from its first
     uint first;   // interval: at least B0 pixels away [alg. 2]
-    Axis axis;
+    float perUnit;            // 1 / c.unit
+    float perHeight, offset;  // of heights: pixels at depth 1 for a metre of m0 - m1, and from the receiver to the picture's middle
 };
 Place placeOf(Direction d, Receiver r, FarFieldConstants c) {
     vec2 at = r.pixel - 0.5 * r.size;
     float along = dot(at, d.along) + d.origin.x, line = (dot(at, vec2(-d.along.y, d.along.x)) + d.origin.y) / c.lineStep;
-    return Place(d, along, line, uint(ceil(along / c.interval)) + 1u, axisOf(viewBlock, d.along));
+    Axis axis = axisOf(viewBlock, d.along);
+    return Place(d, along, line, uint(ceil(along / c.interval)) + 1u, 1.0 / c.unit, 1.0 / (c.slope * axis.step), d.origin.x - along - axis.from / axis.step);
 }
 
 // What a segment has met so far: a horizon, or bins where surfaces are thin.
@@ -45,7 +47,7 @@ struct Met {
     Bins bins;
 };
 // Whether a point that exists may block anything; add() it if so.
-bool counts(Met met, vec2 point) { return kThin != 0u || raises(met.horizon, point); }
+bool counts(Met met, vec2 to) { return kThin != 0u || raises(met.horizon, to); }
 void add(inout Met met, Segment s, FarFieldConstants c, vec2 point, bool found, float share) {
     vec2 slab = slabAt(s, point);
     if (kThin != 0u) addSlab(met.bins, point, normalize(slab), c.thickness, found, s.n * share, c.unit);
@@ -53,77 +55,79 @@ void add(inout Met met, Segment s, FarFieldConstants c, vec2 point, bool found, 
 }
 float blockedOf(Met met) { return kThin != 0u ? met.bins.sum : met.horizon.blocked; }
 
-// (unit / depth, pixels along the direction from the grid's start) of interval j of level n between lines `from` and `to`.
-vec2 cellAt(Place at, FarFieldConstants c, uint n, uint j, float middle, float from, float to) {
+// Interval j of level n between lines `from` and `to`: (across, depth, over) as seenAt() takes them; over is 0 where there is nothing.
+vec3 cellAt(Place at, Segment s, FarFieldConstants c, uint n, uint j, float middle, float from, float to) {
+    uint lines = kAveraging == kPyramid ? at.d.lines >> n : at.d.lines, row = levelBase(at.d, n, kAveraging) + j * lines;
+    float last = float(lines - 1u);
+#ifdef SUMS
+    uint l0 = uint(clamp(floor(from), 0.0, last)), l1 = uint(clamp(max(floor(to), floor(from) + 1.0) - 1.0, 0.0, last));
+    vec3 sum = imageLoad(cells, texelOf(row + l1)).xyz, before = imageLoad(cells, texelOf(row + max(l0, 1u) - 1u)).xyz;
+    sum -= l0 > 0u ? before : vec3(0.0);  // as many times m0, m1 and 1 as lines had something
+    return vec3((sum.x - sum.y) * at.perHeight + (sum.z * s.scale.y - sum.x * s.scale.x) * at.offset, -sum.x, sum.z > 0.5 ? sum.z : 0.0);
+#else
+    vec2 point;
     if (kAveraging == kPyramid) {
-        uint lines = at.d.lines >> n, row = levelBase(at.d, n, kPyramid) + j * lines;
-        float line = clamp(0.5 * (from + to) / float(1u << n) - 0.5, 0.0, float(lines - 1u));
+        float line = clamp(0.5 * (from + to) * uintBitsToFloat((127u - n) << 23u) - 0.5, 0.0, last);  // over 2^n
         uint l = min(uint(line), lines - 2u);
-        vec2 point = mix(unpackHalf2x16(cells[row + l]), unpackHalf2x16(cells[row + l + 1u]), line - float(l));
-        return vec2(point.x, point.y + middle);
-    }
-    uint intervals = at.d.intervals >> n, column = levelBase(at.d, n, kAveraging) + j;
-    vec2 heights;
-    if (kAveraging == kSingle) {
-        uint a = (column + uint(clamp(0.5 * (from + to), 0.0, float(at.d.lines - 1u))) * intervals) * 2u;
-        heights = uintBitsToFloat(uvec2(cells[a], cells[a + 1u]));
+        point = mix(unpackHalf2x16(imageLoad(cells, texelOf(row + l)).x), unpackHalf2x16(imageLoad(cells, texelOf(row + l + 1u)).x), line - float(l));
     } else {
-        float last = float(at.d.lines - 1u);
-        uint l0 = uint(clamp(floor(from), 0.0, last)), l1 = uint(clamp(max(floor(to), floor(from) + 1.0) - 1.0, 0.0, last));
-        uint a = (column + l1 * intervals) * 3u, b = (column + (max(l0, 1u) - 1u) * intervals) * 3u;
-        vec3 sum = uintBitsToFloat(uvec3(cells[a], cells[a + 1u], cells[a + 2u]));
-        sum -= l0 > 0u ? uintBitsToFloat(uvec3(cells[b], cells[b + 1u], cells[b + 2u])) : vec3(0.0);
-        heights = sum.z > 0.5 ? sum.xy / sum.z : vec2(kNothing);
+        point = unpackHalf2x16(imageLoad(cells, texelOf(row + uint(clamp(0.5 * (from + to), 0.0, last)))).x);
     }
-    vec2 point = pointOf(at.axis, c, heights, 0.0);
-    return vec2(point.x, point.y + at.d.origin.x);
+    float inverse = point.x * at.perUnit;
+    return vec3((s.scale.x + s.scale.y * inverse) * (point.y + middle - at.along), 1.0, inverse);
+#endif
 }
 
-// A point of a segment, from the receiver, and whether it counts.
+// A point of a segment: its direction from the receiver, of any length, what to divide that by to have it in metres, and whether it counts.
 struct Found {
-    vec2 point;
+    vec2 to;
+    float over;
     bool is;
 };
 
-// Sample i of `taps` over the first `reach` pixels, denser near the receiver.
-Found nearPoint(Met met, Segment s, Receiver r, FarFieldConstants c, uint i, float reach, float skyDepth) {
-    float t = (float(i) + 0.6) / float(c.taps);
-    t = max(reach * t * sqrt(t), 0.7);
+// Sample i of the near field, (i + 0.6)^1.5 times `first` pixels away: denser near the receiver.
+Found nearPoint(Met met, Segment s, Receiver r, uint i, float first, float skyDepth) {
+    float t = float(i) + 0.6;
+    t = max(first * t * sqrt(t), 0.7);
     float z = imageLoad(depth, clamp(ivec2(r.pixel + t * s.along), ivec2(0), ivec2(r.size) - 1)).x;
     vec2 point = pointAt(s, z, t);
-    return Found(point, t < s.exit && z < skyDepth && counts(met, point));
+    return Found(point, 1.0, t < s.exit && z < skyDepth && counts(met, point));
 }
 
 // Interval j or the longest that begins there, is aligned and not longer than its distance; j goes on behind it. `low` and `high`: the
 // segment's sides, lines per pixel of distance.
-Found farPoint(Met met, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float nothing) {
+Found farPoint(Met met, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float skyDepth) {
     float gap = float(j) - at.along / c.interval;  // in intervals
     uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
     float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
-    vec2 cell = kAveraging == kDirect ? vec2(c.unit / imageLoad(depth, clamp(ivec2(r.pixel + away * s.along), ivec2(0), ivec2(r.size) - 1)).x, middle)
-                                      : cellAt(at, c, n, j >> n, middle, at.line + low * away, at.line + high * away);
-    vec2 point = pointAt(s, c.unit / max(cell.x, 1e-9), cell.y - at.along);
+    vec3 cell;
+    if (kAveraging == kDirect) {
+        float z = imageLoad(depth, clamp(ivec2(r.pixel + away * s.along), ivec2(0), ivec2(r.size) - 1)).x;
+        cell = vec3((z * s.scale.x + s.scale.y) * away, z, z < skyDepth && away < s.exit ? 1.0 : 0.0);
+    } else {
+        cell = cellAt(at, s, c, n, j >> n, middle, at.line + low * away, at.line + high * away);
+    }
+    vec2 to = seenAt(s, cell.x, cell.y, cell.z);
     j += 1u << n;
-    return Found(point, cell.x > nothing && (kAveraging != kDirect || away < s.exit) && counts(met, point));
+    return Found(to, cell.z, cell.z > 0.0 && counts(met, to));
 }
 
 // Obscurance of direction k, not yet over pi, and the sector's width around the zenith.
 vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth) {
     Place at = placeOf(directionsOf[k], r, c);
     vec2 sum = vec2(0.0), along = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * at.d.along;
-    float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments), reach = float(at.first) * c.interval - at.along;
-    float nothing = kAveraging == kDirect ? c.unit / skyDepth : 0.0;  // the sky's unit / depth
+    float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments), taps = float(c.taps), nearest = (float(at.first) * c.interval - at.along) / max(taps * sqrt(taps), 1.0);
     for (uint segment = 0u; segment < c.segments; ++segment) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
         Met met = Met(horizonAt(s.start), binsBelow(s.start));
         uint i = 0u, j = at.first, end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of what the near field blocks; it raises the horizon in any case
         while (i < c.taps || j < end) {  // first to the next point that counts, then what it blocks: neighbouring pixels do either together
-            Found found = Found(vec2(0.0), false);
-            while (!found.is && i < c.taps) found = nearPoint(met, s, r, c, i++, reach, skyDepth);
+            Found found = Found(vec2(0.0), 1.0, false);
+            while (!found.is && i < c.taps) found = nearPoint(met, s, r, i++, nearest, skyDepth);
             bool isFar = !found.is;
-            while (!found.is && j < end) found = farPoint(met, s, r, at, c, j, low, low + step, nothing);
-            add(met, s, c, found.point, found.is, isFar ? 1.0 : share);
+            while (!found.is && j < end) found = farPoint(met, s, r, at, c, j, low, low + step, skyDepth);
+            add(met, s, c, found.to / max(found.over, 1e-12), found.is, isFar ? 1.0 : share);
         }
         sum += s.weight * vec2(blockedOf(met), 1.0);
         low += step;

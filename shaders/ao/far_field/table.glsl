@@ -9,4 +9,10 @@ float acosOf(float x) {
     float r = sqrt(1.0 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - a * 0.0187293)));
     return x < 0.0 ? kPi - r : r;
 }
+float atanOf(float y, float x) {  // y >= 0; error below 1e-5
+    float t = min(y, abs(x)) / max(max(y, abs(x)), 1e-20), t2 = t * t;
+    float r = t * (0.9998660 + t2 * (-0.3302995 + t2 * (0.1801410 + t2 * (-0.0851330 + t2 * 0.0208351))));
+    r = y > abs(x) ? 0.5 * kPi - r : r;
+    return x < 0.0 ? kPi - r : r;
+}
 #endif

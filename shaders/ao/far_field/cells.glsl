@@ -1,0 +1,17 @@
+// The cells of all directions, numbered through, as texels of an image: faster to fetch than a buffer's words, and four words at once. Each is a
+// point in two halves, or with SUMS a prefix sum (m0, m1, 1). Define CELLS_BINDING and CELLS_ACCESS (readonly, writeonly) first.
+#ifndef OBSCURA_FAR_FIELD_CELLS_GLSL
+#define OBSCURA_FAR_FIELD_CELLS_GLSL
+#include "ao/far_field/layout.h"
+
+ivec2 texelOf(uint cell) { return ivec2(cell & (kCellsWide - 1u), cell / kCellsWide); }
+
+#ifdef SUMS
+const uint kAveraging = 1u;  // kPrefix
+layout(set = 0, binding = CELLS_BINDING, rgba32f) uniform CELLS_ACCESS image2D cells;
+#else
+layout(constant_id = 0) const uint kAveraging = 2u;
+layout(set = 0, binding = CELLS_BINDING, r32ui) uniform CELLS_ACCESS uimage2D cells;
+#endif
+
+#endif

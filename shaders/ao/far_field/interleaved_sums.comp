@@ -1,0 +1,5 @@
+// Interleaved obscurance, with cells that are prefix sums.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define SUMS
+#include "interleaved.glsl"
