@@ -19,6 +19,41 @@ TEST_F(LayeredTest, whatIsConvexAndAloneIsOpenToTheLastBit) {
     }
 }
 
+TEST_F(LayeredTest, slicesMakeUpTheHemisphere) {
+    // Evenly about the view ray; even directions on the screen would be off by 0.034 on average here.
+    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0.3f, 1, 0.05f}}}, 200, 120, 20);
+    m_probe = "layered.parts";
+    for (const auto& [slices, tolerance] : {std::pair{16.0f, 0.004f}, {9.0f, 0.011f}}) {
+        run(room, values({{"slices", slices}, {"steps", 1}}, "reference"), "ramp:0.385:1");
+        for (uint32_t y = 0; y < m_probed.height; ++y)
+            for (uint32_t x = 0; x < m_probed.width; ++x) {
+                const size_t i = size_t(y + room.guard) * room.width + x + room.guard;
+                if (room.depth[i] > 100.0f) continue;
+                ASSERT_NEAR(halfToFloat(uint16_t(m_probed.at(x, y) >> 16)), 1.0f, tolerance) << slices << " slices at " << x << ", " << y;
+            }
+    }
+}
+
+TEST_F(LayeredTest, noTileShowsWhereNothingChanges) {
+    // Along a row of the floor the wall is as far everywhere.
+    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 384, 216, 32);
+    for (const float side : {1.0f, 2.0f, 3.0f}) {
+        const Picture picture = run(room, values({{"interleave", side}, {"slices", 16}}), "ramp:0.385:1");
+        double change = 0.0, dark = 0.0;
+        int count = 0;
+        for (uint32_t y = 0; y < room.visibleHeight(); ++y)
+            for (uint32_t x = 120; x < 200; ++x) {
+                const size_t i = size_t(y) * room.visibleWidth() + x;
+                if (room.normals[4 * (size_t(y + room.guard) * room.width + x + room.guard) + 1] < 0.5f || picture[i] < 0.02f) continue;
+                change += std::abs(picture[i + 1] - picture[i]);
+                dark += picture[i];
+                ++count;
+            }
+        ASSERT_GT(count, 200);
+        EXPECT_LT(change / count, 0.005 * dark / count) << side + 1.0f << " pixels a side";
+    }
+}
+
 TEST_F(LayeredTest, everySizeAndSkyGiveFiniteValues) {
     const std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::cylinder, {0.2f, 0, -2}, {0.1f, 0, 0}}};
     for (const auto& [width, height, guard] : {std::tuple{8u, 8u, 0u}, {9u, 13u, 0u}, {37u, 21u, 4u}, {64u, 40u, 7u}})

@@ -2,11 +2,13 @@
 // the screen the horizon angle is raised sample by sample; what it gains counts with the falloff at that sample:
 //     A = 1/N sum over directions, sum over samples that raise the horizon of rho(|S-P|) (sin h - sin h_before)
 // starting at the tangent plane plus a bias. Two changes to the paper: the falloff is the shared type, and the tangent is
-// where the neighbouring view ray meets the tangent plane, which is right under perspective. `axis`, `spacing` and
-// `sample_test` go further than the paper and are off by default, so that the yardstick stays the published one.
+// where the neighbouring view ray meets the tangent plane, which is right under perspective. `axis`, `spacing`,
+// `sample_test` and `depth_layers` go further than the paper and are off by default, so that the yardstick stays the published one.
+// With depth layers a sample raises no horizon: it covers the sines from its front to its back, of 32 parts each but once.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part; then the shared gather and denoiser.
 #include "ao/resolve.h"
+#include "ao/spans.h"
 
 namespace obscura::ao {
 namespace {
@@ -32,6 +34,8 @@ const Parameter kParameters[] = {
     {"axis", "", 0, 1, 0, true, {kAxes, 2}, "What elevations are measured against: the camera's axis as in the paper, or each pixel's own view ray, which is right off the picture's centre."},
     {"sample_test", "", 0, 1, 0, true, {}, "1: a sample must stand above the tangent plane by the bias itself; nearest-texel samples then raise no horizon on a bare plane."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
+    kDepthLayers,
+    kSheet,
     kInterleave,
     {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
 };
@@ -56,6 +60,8 @@ public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Hbao>();
         if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp", {}, result->m_horizons) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons_layers.comp", {}, result->m_layered) != gpu::Status::ok) return nullptr;
+        if (SpansPass::create(device, shaders, result->m_spans) != Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
         if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
         return result;
@@ -67,14 +73,18 @@ public:
                                   values["spacing"], values.count("axis"), values.count("sample_test"), side};
         const auto& visible = inputs.view.visible;
         graph::ImageId visibility = graph.image("hbao.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("hbao.horizons", m_horizons).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility)
-            .constants(constants).dispatch(visible.x, visible.y);
+        const graph::ImageId spans = inputs.layers.thickness ? m_spans.add(graph, inputs, values["sheet"], 0.0f) : graph::ImageId{};
+        graph::Pass& pass = graph.pass("hbao.horizons", spans ? m_layered : m_horizons);
+        pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility);
+        if (spans) pass.read(spans);
+        pass.constants(constants).dispatch(visible.x, visible.y);
         if (side > 1) visibility = m_gather.add(graph, inputs, visibility, side);
         return values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "hbao.denoise") : visibility;
     }
 
 private:
-    gpu::Program m_horizons;
+    gpu::Program m_horizons, m_layered;
+    SpansPass m_spans;
     Denoise m_denoise;
     Gather m_gather;
 };

@@ -2,8 +2,8 @@
 // well, and integrated without guessing. Around the view ray of a pixel, slices of the hemisphere are cut: N of them, evenly
 // in azimuth. On each side of a slice M samples stand for whole strata of the way out to the falloff's reach: what a texel
 // holds - one or two spans [front, back] of matter along its view ray - is continued over its stratum in the texel's tangent
-// plane (a little way; all the way where the sample before lies in the same plane), covers the angles from its fronts to its
-// backs, and each 32nd of the side's integral is covered at most once, with the falloff of what covers it first:
+// plane (a little way; all the way, and back to where the sample before left off, where that one lies in the same plane), covers the
+// angles from its fronts to its backs, and each 32nd of the side's integral is covered at most once, with the falloff of what does so first:
 //     A = 1/N sum over slices and sides of whole/32 * sum over segments of rho * (bits newly covered)
 // A bit is an equal part of the cosine-weighted solid angle. With a the angle from the view ray v, od the slice's direction
 // across it and c = cos a, the integral up to a is
@@ -15,42 +15,41 @@
 // sheets and endless ones. Without depth layers everything has an assumed thickness; with the first layer alone the second
 // surface is left out; a second layer of half size is resolved to whole pixels when surfaces are packed.
 //
-// Reads linear depth, normals and depth layers, guard band included; writes visibility of the visible part. Passes: surfaces
-// (all of it in one texel), segments, blur.
+// Reads linear depth, normals and depth layers, guard band included; writes visibility of the visible part. Passes: spans
+// (all of it in one texel), segments, gather. Slices are shared out among the pixels of a tile, and there is no other noise: a gather
+// along the surface that weighs each share alike takes more of it out than a bell-shaped blur, and leaves no tile.
 #include <iterator>
 
 #include "ao/resolve.h"
+#include "ao/spans.h"
 
 namespace obscura::ao {
 namespace {
 
-struct SurfaceConstants {  // surfaces.comp
-    float sheet, assumed;
-    uint32_t layers, shift;
-};
-struct SegmentConstants {  // segments.comp
+struct Constants {  // segments.comp
     shared::FalloffBlock falloff;
     uint32_t slices, steps;
     float maxPixels;
+    uint32_t side;      // of the interleaving tile
 };
 
 const Parameter kParameters[] = {
-    {"slices", "", 1, 32, 1, true, {}, "Slices of the hemisphere around the view ray; cost grows with slices x steps."},
+    {"slices", "", 1, 32, 16, true, {}, "Slices of the hemisphere around the view ray; cost grows with slices x steps."},
     {"steps", "", 1, 64, 9, true, {}, "Samples to each side of a slice, each for a stratum out to the falloff's reach. Better raised before slices."},
     {"depth_layers", "", 0, 3, 2, true, {kLayerChoices, std::size(kLayerChoices)}, "What is read of what lies behind the visible surface; each more costs geometry passes."},
-    {"sheet", "m", 0, 10, 0.05f, false, {}, "How thick open surfaces are: those that no back face follows."},
+    kSheet,
     {"thickness", "m", 0.01f, 1000, 0.5f, false, {}, "How thick everything is taken to be where there are no depth layers."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
-    {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
+    {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
 const Setting kFast[] = {{"steps", 4}, {"depth_layers", float(LayerUse::first)}};
-const Setting kQuality[] = {{"slices", 3}, {"depth_layers", float(LayerUse::second)}};
-const Setting kReference[] = {{"slices", 16}, {"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"denoise", 0}};
+const Setting kQuality[] = {{"slices", 12}, {"depth_layers", float(LayerUse::second)}, {"interleave", 1}};
+const Setting kReference[] = {{"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
-    {"default", "18 samples, thickness and a second surface of half size.", {}},
+    {"default", "18 samples, a slice a pixel, thickness and a second surface of half size.", {}},
     {"fast", "8 samples, thickness alone: one more geometry pass.", {kFast, std::size(kFast)}},
-    {"quality", "54 samples, thickness and a second surface.", {kQuality, std::size(kQuality)}},
-    {"reference", "1024 samples and no blur: what the layers hold.", {kReference, std::size(kReference)}},
+    {"quality", "54 samples, three slices a pixel, thickness and a second surface.", {kQuality, std::size(kQuality)}},
+    {"reference", "1024 samples, nothing shared out: what the layers hold.", {kReference, std::size(kReference)}},
 };
 const MethodInfo kInfo{"layered",
                        "Layered obscurance",
@@ -64,39 +63,34 @@ class Layered final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Layered>();
-        if (gpu::Program::compute(device, shaders, "ao/layered/surfaces.comp", {}, result->m_surfaces) != gpu::Status::ok) return nullptr;
+        if (SpansPass::create(device, shaders, result->m_spans) != Status::ok) return nullptr;
         for (uint32_t second = 0; second < 2; ++second)
             if (gpu::Program::compute(device, shaders, "ao/layered/segments.comp", {{0, second}}, result->m_segments[second]) != gpu::Status::ok) return nullptr;
-        if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/layered/gather.comp", {}, result->m_gather) != gpu::Status::ok) return nullptr;
         return result;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
-        const auto& size = inputs.view.size;
         const auto& visible = inputs.view.visible;
-        const bool first = bool(inputs.layers.thickness), second = bool(inputs.layers.second);
-        const graph::ImageId missing = first && second ? graph::ImageId{} : allOpen(graph, {1, 1}, "layered.nothing");  // bound, not read
-        const SurfaceConstants surface{values["sheet"], values["thickness"], second ? 2u : first ? 1u : 0u,
-                                       second && graph.desc(inputs.layers.second).width < size.x ? 1u : 0u};
-        const graph::ImageId surfaces = graph.image("layered.surfaces", {VK_FORMAT_R32G32B32A32_UINT, size.x, size.y});
-        graph.pass("layered.surfaces", m_surfaces).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals)
-            .read(first ? inputs.layers.thickness : missing).read(second ? inputs.layers.second : missing).write(surfaces)
-            .constants(surface).dispatch(size.x, size.y);
-
-        const SegmentConstants segments{inputs.falloff, values.count("slices"), values.count("steps"), values["max_pixels"]};
+        const graph::ImageId spans = m_spans.add(graph, inputs, values["sheet"], values["thickness"]);
+        const uint32_t side = tileSide(values), slices = sharedOut(values.count("slices"), side) / (side * side);
+        const Constants constants{inputs.falloff, slices, values.count("steps"), values["max_pixels"], side};
+        const graph::ImageId parts = graph.image("layered.parts", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
         const graph::ImageId visibility = graph.image("layered.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("layered.segments", m_segments[second]).read(inputs.viewBlock).read(surfaces).write(visibility).constants(segments)
+        graph.pass("layered.segments", m_segments[bool(inputs.layers.second)]).read(inputs.viewBlock).read(spans).write(parts).constants(constants)
             .dispatch(visible.x, visible.y);
-        return values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "layered.blur") : visibility;
+        graph.pass("layered.gather", m_gather).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(parts).write(visibility).constants(side)
+            .dispatch(visible.x, visible.y);
+        return visibility;
     }
 
     // Spans end, so what passes behind them at more than the usual thickness has not been counted.
     Blocking blocking(const Inputs&, const Values& values) const override { return {Blocking::kEndless, values["thickness"]}; }
 
 private:
-    gpu::Program m_surfaces;
+    SpansPass m_spans;
     gpu::Program m_segments[2];  // of one span, of two
-    Denoise m_denoise;
+    gpu::Program m_gather;
 };
 
 }  // namespace

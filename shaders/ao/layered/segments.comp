@@ -1,20 +1,23 @@
 // Segments of occlusion around each pixel: for every slice and step what the depth layers hold there covers part of the
 // hemisphere, once, with the falloff of where it stands. Formulas in runtime/ao/methods/layered.cpp.
-// In: surfaces.comp's texels, guard band included. Out: visibility, R16F.
+// In: spans.comp's texels, guard band included. Out: what they block and what they could, RG16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/spans.glsl"
+#include "ao/common/tile.glsl"
 #include "shared/falloff.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
-layout(set = 0, binding = 1, rgba32ui) uniform readonly uimage2D surfaces;
-layout(set = 0, binding = 2, r16f) uniform writeonly image2D visibility;
+layout(set = 0, binding = 1, rgba32ui) uniform readonly uimage2D spans;
+layout(set = 0, binding = 2, rg16f) uniform writeonly image2D parts;
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
-    uint slices;
+    uint slices;    // of this pixel
     uint steps;     // a side
     float maxPixels;
+    uint side;      // of the tile whose pixels share the slices out
 };
 layout(constant_id = 0) const bool kTwoSpans = true;
 
@@ -22,8 +25,14 @@ const float kPi = 3.14159265;
 const float kFlat = 0.1;             // sine of the angle up to which two samples share a plane
 const float kRise = 0.012;           // depths that a surface may rise over a stratum when they do not
 const float kNextStep = 0.61803399;  // slices do not sample in one rhythm
-// Neighbours differ most and any 4x4 pixels hold all 16: a hash instead has three times the error after the blur.
-const uint kBayer[16] = uint[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+
+// Which of the tile's slices and steps are a pixel's, in [0,1). Any 4x4 pixels hold 16 once, any 2x2 of them a quarter each: a hash
+// instead has three times the error after the gather.
+vec2 tileNoise(uvec2 p, uint side) {
+    uint nine = p.x % 3u + 3u * (p.y % 3u), sixteen = 4u * bayer(p) + bayer(p >> 1);
+    vec2 ranks = side == 3u ? vec2(nine, nine % 3u * 3u + nine / 3u) : vec2(sixteen, bitfieldReverse(sixteen) >> 28);
+    return (ranks + 0.5) / (side == 3u ? 9.0 : 16.0);
+}
 
 // The view ray of a place on the slice: points are offset + (F - D) dir from the pixel's own, F their depth and D the pixel's.
 struct Ray {
@@ -59,11 +68,11 @@ float distanceTo(Ray r, float f, float end) { return sqrt(max(square(r, clamp(-r
 
 // One side of a slice. All integrals are told as parts of the whole side's.
 struct Side {
-    float least;           // cosine where the hemisphere ends
-    float flat_, curved;   // the integral up to the angle of cosine c: flat (1 - c^2) + curved (pi/2 - wave(c)), in 32nds
+    float least, flat_, curved;  // cosine at the hemisphere's end; up to cosine c: flat (1 - c^2) + curved (pi/2 - wave(c)), in 32nds
     uint covered;
-    float blocked;         // 32nds
-    vec3 before;           // the last sample, from the pixel
+    float blocked;               // 32nds
+    vec3 before, faced;          // the last sample, from the pixel, and its normal
+    float reached;               // pixels: how far its surface was followed
 };
 // asin c + c sqrt(1 - c^2), to 0.0014.
 float wave(float c) {
@@ -75,8 +84,7 @@ float bitAt(Side side, float c) {
     return clamp(side.flat_ * (1.0 - c * c) + side.curved * (0.5 * kPi - wave(c)), 0.0, 32.0);
 }
 void cover(inout Side side, float front, float back, float weight) {
-    int first = int(bitAt(side, front) + 0.5), end = int(bitAt(side, back) + 0.5);
-    uint bits = bitfieldInsert(0u, ~0u, first, max(end - first, 0)) & ~side.covered;
+    uint bits = partsBetween(bitAt(side, front), bitAt(side, back)) & ~side.covered;
     side.covered |= bits;
     side.blocked += weight * float(bitCount(bits));
 }
@@ -99,10 +107,10 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard), last = ivec2(view.size) - 1;
-    uvec2 own = imageLoad(surfaces, texel).xy;
+    uvec2 own = imageLoad(spans, texel).xy;
     float z = uintBitsToFloat(own.x);
     if (isSky(view, z)) {
-        imageStore(visibility, p, vec4(1.0));
+        imageStore(parts, p, vec4(0.0, 1.0, 0.0, 0.0));
         return;
     }
     bool orthographic = view.orthographic > 0.5;
@@ -117,18 +125,13 @@ void main() {
     here.n = unpackNormal(own.y);
     if (dot(here.n, here.v) < 0.0) here.n = -here.n;
 
-    uint tile = kBayer[(texel.y & 3) * 4 + (texel.x & 3)];
-    vec3 shift = frameShift(view);
-    float r0 = fract((float(tile) + 0.5) / 16.0 + shift.x), r1 = fract((float(bitfieldReverse(tile) >> 28) + 0.5) / 16.0 + shift.y);
+    vec2 noise = fract(tileNoise(uvec2(texel), side) + frameShift(view).xy);
     float reach = min(rho.reach * view.pixelsPerMetre / here.scale, maxPixels);
-    float part = 1.0 / float(steps);
     vec3 tangent = normalize(vec3(1, 0, 0) - here.v * here.v.x), across = cross(tangent, here.v);
-    float nv = dot(here.n, here.v);
-
-    float blocked = 0.0;
+    float nv = dot(here.n, here.v), blocked = 0.0, measure = 0.0;
     for (uint k = 0u; k < slices; ++k) {
         // Slices lie evenly around the view ray, not on the screen: only then they make up the hemisphere.
-        float turn = kPi * (float(k) + r0) / float(slices);
+        float turn = kPi * (float(k) + noise.x) / float(slices);
         vec3 od = tangent * cos(turn) + across * sin(turn);
         vec2 step = (od.xy * here.scale + (orthographic ? vec2(0.0) : position.xy * od.z)) * view.project.xy;
         step *= inversesqrt(max(dot(step, step), 1e-20));
@@ -141,11 +144,11 @@ void main() {
             float sign = s == 0 ? 1.0 : -1.0;
             whole[s] = 0.5 * max(nv + angle * no + sign * 0.5 * kPi * no, 0.0);
             float scale = 16.0 / max(whole[s], 1e-6);
-            sides[s] = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0));
+            sides[s] = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0), here.n, 1.0);
         }
-        float jitter = r1 + kNextStep * float(k);
+        float jitter = noise.y + kNextStep * float(k);
         for (uint i = 0u; i < steps; ++i) {
-            float t0 = float(i) * part, t1 = t0 + part;
+            float part = 1.0 / float(steps), t0 = float(i) * part, t1 = t0 + part;
             float e0 = max(t0 * sqrt(t0) * reach, 1.0), e1 = max(t1 * sqrt(t1) * reach, 1.0);
             for (int s = 0; s < 2; ++s) {
                 float sign = s == 0 ? 1.0 : -1.0;
@@ -154,38 +157,43 @@ void main() {
                 vec2 at = pixel + sign * l * step;
                 ivec2 q = clamp(ivec2(at), ivec2(0), last);
                 bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
-                uvec4 surface = imageLoad(surfaces, q);
-                vec2 sizes = unpackHalf2x16(surface.z);
-                vec2 octahedral = unpackSnorm2x16(surface.y);
+                uvec4 packed = imageLoad(spans, q);
+                Spans matter = unpackSpans(packed);
+                vec2 octahedral = unpackSnorm2x16(packed.y);
                 vec3 ns = vec3(octahedral, 1.0 - abs(octahedral.x) - abs(octahedral.y));
                 float fold = max(-ns.z, 0.0);
                 ns.xy -= vec2(ns.x >= 0.0 ? fold : -fold, ns.y >= 0.0 ? fold : -fold);  // its length does not matter
-                float zs = uintBitsToFloat(surface.x), f = zs - z;
                 Ray ray = rayAt(here, (vec2(q) + 0.5 - pixel) * view.unproject.xy);
-                Ray ray0 = rayAt(here, sign * min(e0, l) * stepRay), ray1 = rayAt(here, sign * max(e1, l) * stepRay);
+                float zs = matter.first, f = zs - z;
 
                 // The surface goes on in its tangent plane to both ends of the stratum, as far as it is thick. Far only where the
-                // sample before lies in that plane too: the facets of a relief would rise as spikes.
+                // sample before lies in that plane too, for the facets of a relief would rise as spikes; then what that sample
+                // was not followed over is made up for. A sheet that rises out of a hollow fills it: nothing is seen between.
                 vec3 d = vec3(ray.offset, 0.0) + f * ray.dir, from = d - sides[s].before;
-                float off = dot(ns, from);
+                float off = dot(ns, from), plane = dot(ns, d);
                 bool flat_ = off * off < kFlat * kFlat * dot(ns, ns) * dot(from, from);
+                bool hollow = off < 0.0 && dot(sides[s].faced, from) > 0.0 && matter.firstLength < 0.0;
+                Ray ray0 = rayAt(here, sign * min(flat_ ? sides[s].reached : e0, l) * stepRay), ray1 = rayAt(here, sign * max(e1, l) * stepRay);
                 float most = (flat_ ? 0.5 : kRise) * zs;
-                most = sizes.x > 0.0 ? min(sizes.x, most) : most;
+                most = matter.firstLength > 0.0 ? min(matter.firstLength, most) : most;
+                float most0 = hollow ? 0.5 * zs : most;
+                float f0 = clamp((plane - dot(ns.xy, ray0.offset)) / min(dot(ns, ray0.dir), -1e-4), f - most0, f + most0);
+                float end = (plane - dot(ns.xy, ray1.offset)) / min(dot(ns, ray1.dir), -1e-4), f1 = clamp(end, f - most, f + most);
                 sides[s].before = inside ? d : sides[s].before;
-                float plane = dot(ns, d);
-                float f0 = clamp((plane - dot(ns.xy, ray0.offset)) / min(dot(ns, ray0.dir), -1e-4), f - most, f + most);
-                float f1 = clamp((plane - dot(ns.xy, ray1.offset)) / min(dot(ns, ray1.dir), -1e-4), f - most, f + most);
-                bool above = dot(d, here.n) > 0.001 * length(d);  // nearest texels of the pixel's own plane cover nothing
-                span(sides[s], rho, ray0, ray, ray1, f0, f, f1, sizes.x, inside && above && !isSky(view, zs));
+                sides[s].faced = inside ? ns : sides[s].faced;
+                sides[s].reached = inside ? (f1 == end ? max(e1, l) : l) : sides[s].reached;
+                bool above = dot(d, here.n) > 0.001 * length(d);  // the pixel's own plane covers nothing
+                span(sides[s], rho, ray0, ray, ray1, f0, f, f1, matter.firstLength, inside && above && !isSky(view, zs));
                 if (kTwoSpans) {
-                    float zb = uintBitsToFloat(surface.w), g = zb - z;
+                    float g = matter.second - z;
                     vec3 b = vec3(ray.offset, 0.0) + g * ray.dir;
                     bool behind = dot(b, here.n) > 0.001 * length(b);
-                    span(sides[s], rho, ray0, ray, ray1, g, g, g, sizes.y, inside && behind && zb > 0.0);
+                    span(sides[s], rho, ray0, ray, ray1, g, g, g, matter.secondLength, inside && behind && matter.second > 0.0);
                 }
             }
         }
         blocked += sides[0].blocked * whole[0] + sides[1].blocked * whole[1];
+        measure += whole[0] + whole[1];
     }
-    imageStore(visibility, p, vec4(clamp(1.0 - blocked / (32.0 * float(slices)), 0.0, 1.0)));
+    imageStore(parts, p, vec4(blocked / 32.0, measure, 0.0, 0.0) / float(slices));
 }

@@ -1,10 +1,8 @@
-// Everything a sample needs in one texel: depth, normal and up to two spans of matter along the view ray.
-//     x: linear depth, bits of a float; y: packed normal; z: halves, length of the first span and of the second; w: depth of the
-//     second, bits of a float, 0: there is none
-// A negative length says that the distance to the span is that to its front: it is a sheet, or endless, or only assumed.
-// In: depth, normals, what there is of the depth layers (obscura/ao.h, DepthLayers).
+// Depth, normal and depth layers in the one texel that spans.glsl describes.
+// In: depth, normals, what there is of the depth layers. Out: RGBA32UI.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/spans.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -13,15 +11,13 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
 layout(set = 0, binding = 4) uniform sampler2D second;
-layout(set = 0, binding = 5, rgba32ui) uniform writeonly uimage2D surfaces;
+layout(set = 0, binding = 5, rgba32ui) uniform writeonly uimage2D spans;
 layout(push_constant) uniform Constants {
     float sheet;    // thickness of open sheets, metres
     float assumed;  // and of everything where there is no layer
     uint layers;    // that there are: 0 to 2
     uint shift;     // 1: the second is of half size
 };
-
-const float kEndless = 65504.0;
 
 // As stored: what is no solid is told apart by its sign. All is at least half a pixel thick.
 float lengthOf(float t, float sheetThick, float leastThick) {
@@ -39,8 +35,7 @@ void main() {
     vec3 position = eyePosition(view, vec2(p) + 0.5, z);
     float slant = 1.0 / max(abs(dot(unpackNormal(normal), towardsEye(view, position))), 0.05);
     float t = layers > 0u ? texelFetch(thickness, p, 0).x : 0.0;
-    float first = layers > 0u ? lengthOf(t, sheet * slant, leastThick) : -min(assumed, kEndless);
-    vec2 next = vec2(0.0, 1.0);
+    Spans result = Spans(z, layers > 0u ? lengthOf(t, sheet * slant, leastThick) : -min(assumed, kEndless), 0.0, 1.0);
     if (layers > 1u) {
         ivec2 chosen = p >> int(shift);
         vec2 found = texelFetch(second, chosen, 0).xy;
@@ -52,9 +47,10 @@ void main() {
             found = zq > end ? vec2(isSky(view, zq) ? 0.0 : zq, texelFetch(thickness, q, 0).x) : found;
             found.x = found.x + max(found.y, sheet) > end && found.x > 0.0 ? max(found.x, end) : 0.0;
         }
-        if (found.x > z) next = vec2(found.x, lengthOf(found.y, sheet, leastThick));
+        if (found.x > z && !isSky(view, z)) {
+            result.second = found.x;
+            result.secondLength = lengthOf(found.y, sheet, leastThick);
+        }
     }
-    bool sky = isSky(view, z);
-    imageStore(surfaces, p, uvec4(floatBitsToUint(z), normal, packHalf2x16(clamp(vec2(first, next.y), -kEndless, kEndless)),
-                                  sky ? 0u : floatBitsToUint(next.x)));
+    imageStore(spans, p, packSpans(result, normal));
 }

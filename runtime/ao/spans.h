@@ -1,0 +1,26 @@
+// Depth layers as methods sample them: one texel holds depth, normal and up to two spans of matter along the view ray. One load serves
+// for all of it, and what layers leave unsaid is settled once a pixel: how thick open sheets are, what a second surface of half size
+// means at an edge, how thick everything is where there are none.
+#pragma once
+
+#include "ao/method.h"
+
+namespace obscura::ao {
+
+class SpansPass {
+public:
+    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SpansPass& out);
+    // R32G32B32A32_UINT, view.size, laid out as shaders/ao/common/spans.glsl says. `sheet`: how thick surfaces are that no back face
+    // follows; `assumed`: how thick everything is where the frame has no layers; metres.
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, float sheet, float assumed);
+
+private:
+    gpu::Program m_pack;
+};
+
+// What a method that can do without has of them. Named as renderers and layersOf() look for it.
+inline constexpr Parameter kDepthLayers{"depth_layers", "", 0, 3, 0, true, {kLayerChoices, 4},
+                                        "What is read of what lies behind the visible surface, so that things end where they do; each more costs geometry passes."};
+inline constexpr Parameter kSheet{"sheet", "m", 0, 10, 0.05f, false, {}, "How thick open surfaces are where depth layers are read: those that no back face follows."};
+
+}  // namespace obscura::ao

@@ -1,0 +1,155 @@
+// One invocation a visible pixel, directions x steps nearest-texel samples. Formulas in runtime/ao/methods/hbao.cpp.
+// In: linear depth, packed normals (guard band included); with DEPTH_LAYERS, spans of matter. Out: visibility, R16F.
+#ifndef OBSCURA_HBAO_HORIZONS_GLSL
+#define OBSCURA_HBAO_HORIZONS_GLSL
+#include "ao/common/tile.glsl"
+#include "shared/falloff.h"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+#ifdef DEPTH_LAYERS
+#include "ao/common/spans.glsl"
+#endif
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
+#ifdef DEPTH_LAYERS
+layout(set = 0, binding = 4, rgba32ui) uniform readonly uimage2D spans;
+#endif
+layout(push_constant) uniform Constants {
+    FalloffBlock falloffBlock;
+    uint directions;
+    uint steps;
+    float bias;       // radians
+    float maxPixels;  // longest reach, px
+    float spacing;    // samples lie at mix(t, t^2, spacing) of the reach, t = (i + offset) / steps
+    uint viewAxis;    // elevations over the plane across 0: the camera's axis, as the paper; 1: the pixel's own view ray
+    uint sampleTest;  // 1: a sample counts only when it stands above the tangent plane by the bias itself
+    uint side;        // of the tile whose pixels share out the directions; 1: each does all
+};
+
+const float kTwoPi = 6.28318531;
+
+// Two permutations of 0..15 over a 4x4 tile: rotation and step offset, (i + 0.5) / 16.
+const float kRotation[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+const float kOffset[16] = float[](5, 13, 7, 15, 9, 1, 11, 3, 6, 14, 4, 12, 10, 2, 8, 0);
+
+// Sine of the elevation, above the plane across the view direction, of the tangent plane towards the next pixel: where
+// that pixel's view ray meets the plane.
+float tangentSine(View view, vec3 here, vec3 n, vec3 v, vec2 pixel, vec2 direction) {
+    vec3 ahead = eyePosition(view, pixel + direction, -here.z);
+    vec3 t;
+    if (view.orthographic > 0.5) {
+        vec3 d = ahead - here;
+        t = d - vec3(0, 0, 1) * dot(n, d) / max(n.z, 1e-3);
+    } else {
+        float facing = dot(n, ahead);
+        t = abs(facing) > 1e-6 ? ahead * (dot(n, here) / facing) - here : ahead;
+        if (facing * dot(n, here) <= 0.0) t = -v;  // the ray never meets the plane: it falls away behind the horizon
+    }
+    return dot(t, v) * inversesqrt(max(dot(t, t), 1e-20));
+}
+
+#ifdef DEPTH_LAYERS
+// What is left open of a direction, from the horizon it starts with to the eye: 32 parts, even in the sine, each blocked once.
+struct Arc {
+    float start, scale;
+    uint covered;
+    vec3 before;    // the last sample's front, from the pixel, and its sine
+    float reached;
+};
+const float kFlat = 0.05;  // sine of the angle up to which two samples lie in one plane
+float placeOf(Arc arc, float sine) { return clamp((sine - arc.start) * arc.scale, 0.0, 32.0); }
+// Parts that a span covers anew, times its falloff: from its front to its back, or down to where the last sample of its plane ended.
+// d is the span's front, `ray` the view ray's way for a metre of depth.
+float coverSpan(inout Arc arc, FalloffBlock rho, vec3 d, vec3 ray, float size, float sine, float down, vec3 v, bool counts) {
+    vec3 b = d + abs(size) * ray;
+    float back = min(dot(b, v) * inversesqrt(max(dot(b, b), 1e-20)), down);
+    float along = size > 0.0 ? clamp(-dot(d, ray) / dot(ray, ray), 0.0, size) : 0.0;
+    uint bits = counts ? partsBetween(placeOf(arc, back), placeOf(arc, sine)) & ~arc.covered : 0u;
+    arc.covered |= bits;
+    return float(bitCount(bits)) * falloff(rho, length(d + along * ray));
+}
+#endif
+
+void main() {
+    // Copies, so that the loops hold them in registers.
+    View view = viewBlock;
+    FalloffBlock rho = falloffBlock;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 texel = p + ivec2(view.guard);
+    float z = imageLoad(depth, texel).x;
+    if (isSky(view, z)) {
+        imageStore(visibility, p, vec4(1.0));
+        return;
+    }
+    vec2 pixel = vec2(texel) + 0.5;
+    vec3 here = eyePosition(view, pixel, z);
+    vec3 n = unpackNormal(imageLoad(normals, texel).x);
+    vec3 toEye = towardsEye(view, here);
+    if (dot(n, toEye) < 0.0) n = -n;
+    vec3 v = viewAxis != 0u ? toEye : vec3(0, 0, 1);
+    float cosBias = cos(bias), sinBias = sin(bias);
+    float leastRise = sampleTest != 0u ? sinBias : -1.0;
+
+    float reach = min(rho.reach * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z), maxPixels);
+    int tile = (texel.y & 3) * 4 + (texel.x & 3);
+    vec3 shift = frameShift(view);
+    vec2 noise = side > 1u ? pixelNoise(p).xy : (vec2(kRotation[tile], kOffset[tile]) + 0.5) / 16.0;
+    float rotation = fract(noise.x + shift.x);
+    float offset = fract(noise.y + shift.y);
+    float stepPixels = max(reach / float(steps), 1.0);
+    float span = stepPixels * float(steps);
+    float inverseSteps = 1.0 / float(steps);
+    ivec2 last = ivec2(view.size) - 1;
+    vec2 size = vec2(view.size);
+
+    float blocked = 0.0;
+    uint shares = side * side;
+    for (uint k = side > 1u ? shareOf(view, p, side) : 0u; k < directions; k += shares) {
+        float angle = (float(k) + rotation) * kTwoPi / float(directions);
+        vec2 direction = vec2(cos(angle), sin(angle));
+        float tangent = tangentSine(view, here, n, v, pixel, direction);
+        // sin(t + bias)
+        float horizon = min(tangent * cosBias + sqrt(max(1.0 - tangent * tangent, 0.0)) * sinBias, 1.0);
+#ifdef DEPTH_LAYERS
+        Arc arc = Arc(horizon, 32.0 / max(1.0 - horizon, 1e-4), 0u, vec3(0.0), 1.0);
+        float covered = 0.0;
+#endif
+        for (uint i = 0u; i < steps; ++i) {
+            float t = (float(i) + offset) * inverseSteps;
+            vec2 at = pixel + direction * max(mix(t, t * t, spacing) * span, 1.0);
+            ivec2 q = clamp(ivec2(at), ivec2(0), last);
+            bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, size));
+#ifdef DEPTH_LAYERS
+            uvec4 packed = imageLoad(spans, q);
+            Spans matter = unpackSpans(packed);
+            vec3 d = eyePosition(view, vec2(q) + 0.5, matter.first) - here;
+            vec3 ray = eyePosition(view, vec2(q) + 0.5, matter.first + 1.0) - here - d;
+            vec3 m = unpackNormal(packed.y), from = d - arc.before, e = d + (matter.second - matter.first) * ray;
+            float inverse = inversesqrt(max(dot(d, d), 1e-20)), inverseE = inversesqrt(max(dot(e, e), 1e-20)), off = dot(m, from), sine = dot(d, v) * inverse;
+            float down = off * off < kFlat * kFlat * dot(from, from) ? arc.reached : 1.0;
+            covered += coverSpan(arc, rho, d, ray, matter.firstLength, sine, down, v, inside && dot(d, n) * inverse >= leastRise);
+            covered += coverSpan(arc, rho, e, ray, matter.secondLength, dot(e, v) * inverseE, 1.0, v, inside && matter.second > 0.0 && dot(e, n) * inverseE >= leastRise);
+            arc.before = inside ? d : arc.before;
+            arc.reached = inside ? sine : arc.reached;
+#else
+            vec3 d = eyePosition(view, vec2(q) + 0.5, imageLoad(depth, q).x) - here;
+            float distance2 = dot(d, d);
+            float inverse = inversesqrt(max(distance2, 1e-20));
+            float sine = dot(d, v) * inverse;
+            float gain = inside && dot(d, n) * inverse >= leastRise ? max(sine - horizon, 0.0) : 0.0;
+            blocked += falloff(rho, distance2 * inverse) * gain;
+            horizon += gain;
+#endif
+        }
+#ifdef DEPTH_LAYERS
+        blocked += covered / arc.scale;
+#endif
+    }
+    imageStore(visibility, p, vec4(clamp(1.0 - blocked / float(directions / shares), 0.0, 1.0)));
+}
+
+#endif
