@@ -80,17 +80,22 @@ public:
 
     std::vector<Row> measure() {
         for (const evaluate::Candidate& candidate : m_options.what.candidates) m_machine.expectMethod(*m_shots.front().library, candidate.info());
-        const uint32_t rounds = m_options.what.rounds, begin = roundsDone();
-        if (begin == 0 && rounds > 0) firstLook();
+        const uint32_t rounds = m_options.what.rounds;
+        size_t done = 0, left = 0;
+        for (const Cell& cell : m_cells) left += rounds - cell.row.rounds.size();
+        const std::vector<Ground> grounds = std::any_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.rounds.empty(); }) ? look() : std::vector<Ground>();
         {
-            app::Progress progress("timing " + m_title, m_cells.size() * (rounds - begin));
-            for (uint32_t round = begin; round < rounds; ++round) {
-                for (size_t i = 0; i < m_cells.size(); ++i) {
-                    progress.at((round - begin) * m_cells.size() + i, m_cells[i].row.label());
-                    m_cells[i].add(draw(m_cells[i], m_options.what.frames));
+            app::Progress progress("timing " + m_title, left);
+            for (uint32_t round = 0; round < rounds; ++round)
+                for (Cell& cell : m_cells) {
+                    if (cell.row.rounds.size() > round) continue;
+                    progress.at(done++, cell.row.label());
+                    const evaluate::Drawing drawing =
+                        evaluate::draw(m_machine, m_shots[cell.shot], *cell.candidate, cell.falloff->falloff, m_options.what.warmUp, m_options.what.frames);
+                    if (round == 0) judge(cell, drawing, grounds[cell.shot]);
+                    cell.add(drawing);
+                    save(done == left);
                 }
-                save();
-            }
         }
         if (m_options.flicker) flicker();
         std::vector<Row> rows;
@@ -137,32 +142,28 @@ private:
         return hash.hex();
     }
 
-    evaluate::Drawing draw(const Cell& cell, uint32_t frames) {
-        return evaluate::draw(m_machine, m_shots[cell.shot], *cell.candidate, cell.falloff->falloff, m_options.what.warmUp, frames);
+    // What a shot's cells are held against.
+    struct Ground {
+        uint64_t bytes;                // of the frame without obscurance
+        std::vector<evaluate::JudgedBy> references;
+    };
+    std::vector<Ground> look() {
+        std::vector<Ground> grounds;
+        for (evaluate::Shot& shot : m_shots) {
+            const evaluate::Candidate nothing{ao::Values(*ao::methods()[0]), "default", {}};
+            const uint64_t bytes = evaluate::draw(m_machine, shot, nothing, m_options.what.falloffs.front().falloff, 1, 1).bytes;
+            grounds.push_back({bytes, referencesOf(m_machine, shot, m_options.what).list});
+        }
+        return grounds;
     }
 
     // Errors and memory: what does not change from round to round.
-    void firstLook() {
-        const ao::MethodInfo& none = *ao::methods()[0];
-        std::vector<uint64_t> bare;
-        std::vector<evaluate::References> references;
-        for (evaluate::Shot& shot : m_shots) {
-            const evaluate::Candidate nothing{ao::Values(none), "default", {}};
-            bare.push_back(evaluate::draw(m_machine, shot, nothing, m_options.what.falloffs.front().falloff, 1, 1).bytes);
-            references.push_back(referencesOf(m_machine, shot, m_options.what));
-        }
-        app::Progress progress("comparing " + m_title, m_cells.size());
-        for (size_t i = 0; i < m_cells.size(); ++i) {
-            Cell& cell = m_cells[i];
-            progress.at(i, cell.row.label());
-            const evaluate::Drawing drawing = draw(cell, 1);
-            const truth::Mask valid = m_shots[cell.shot].frame.visibleMask();
-            cell.row.bytes = drawing.bytes - std::min(drawing.bytes, bare[cell.shot]);
-            for (const evaluate::JudgedBy& reference : references[cell.shot].list) {
-                if (reference.falloff != cell.falloff->text) continue;
-                const truth::Metrics m = truth::compare(drawing.visibility, reference.visibility, valid);
-                cell.row.errors.push_back({reference.kind, m.raw.eA, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim});
-            }
+    void judge(Cell& cell, const evaluate::Drawing& drawing, const Ground& ground) const {
+        cell.row.bytes = drawing.bytes - std::min(drawing.bytes, ground.bytes);
+        for (const evaluate::JudgedBy& reference : ground.references) {
+            if (reference.falloff != cell.falloff->text) continue;
+            const truth::Metrics m = truth::compare(drawing.visibility, reference.visibility, m_shots[cell.shot].frame.visibleMask());
+            cell.row.errors.push_back({reference.kind, m.raw.eA, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim});
         }
     }
 
@@ -170,7 +171,6 @@ private:
     void flicker() {
         const evaluate::SceneFile file = evaluate::findScene(m_scene);
         if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); })) return;
-        m_shots.clear();  // the flight has a renderer of its own
         for (const evaluate::FalloffChoice& falloff : m_options.what.falloffs) {
             flythrough::Settings settings = *m_options.flicker;
             settings.falloff = falloff;
@@ -186,14 +186,16 @@ private:
                     }
                     cell.row.flicker = found;
                 }
-                if (found) save();
+                if (found) save(true);
             }
         }
     }
 
-    uint32_t roundsDone() const { return uint32_t(m_cells.front().row.rounds.size()); }
-
-    void save() const {
+    // Now and then; now if it must be.
+    void save(bool must) {
+        constexpr double kEvery = 2000.0;  // ms
+        if (!must && app::now() - m_saved < kEvery) return;
+        m_saved = app::now();
         Json json{{"key", m_key}, {"cells", Json::array()}};
         for (const Cell& cell : m_cells) {
             Json line = toJson(cell.row);
@@ -234,6 +236,7 @@ private:
     std::vector<Cell> m_cells;
     fs::path m_file;
     std::string m_key;
+    double m_saved = 0.0;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The measuring itself, kept in OUT/parts after every round, so that an interrupted run goes on where it stopped.
+// The measuring itself, kept in OUT/parts every few seconds, so that an interrupted run goes on where it stopped.
 #pragma once
 
 #include "options.h"

@@ -46,7 +46,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.footer(
         "All methods, falloffs, cameras and sizes of a scene take turns, a round after the other, so that a machine's drift hits them alike. Compare\n"
         "times inside one run only. Writes to --out: bench.html (error against time, scaling), bench.json, bench.csv, passes.csv, bench.md. A run that was\n"
-        "interrupted goes on with the round it was in.\n\n"
+        "interrupted goes on where it was.\n\n"
         "Examples:\n"
         "  obscura-bench --scene sponza,atrium --falloff quadratic:2,exponential:1 --out out/front       who is best at every millisecond\n"
         "  obscura-bench --method hbao --set steps=4,8,16 --scene atrium                                 cost and error against samples\n"

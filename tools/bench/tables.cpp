@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -113,9 +114,10 @@ std::string markdown(const Results& results) {
 
 std::string report(const Results& results) {
     std::string text = fmt::format("# Time, error, flicker and memory of ambient-obscurance methods\n\n    {}\n\n{}\n{}", results.command, legend(results), markdown(results));
-    text += "\n## Fronts\n\nAt which time budgets a yardstick has less error than the best of ours that fits.\n\n";
+    const char* head = "\n## Fronts\n\nAt which time budgets a yardstick has less error than the best of ours that fits.\n\n";
     for (const Front& front : fronts(results)) {
         if (!front.both) continue;
+        text += std::exchange(head, "");
         if (front.gaps.empty()) text += fmt::format("- {}: none; one of ours is ahead at every budget\n", front.title());
         for (const Gap& gap : front.gaps) text += fmt::format("- {}: {}\n", front.title(), gapText(gap, results, front.reference));
     }

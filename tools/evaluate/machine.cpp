@@ -84,9 +84,14 @@ render::Renderer& Machine::newRenderer() {
     expect(m_frames->wait(), "waiting for the last scene");
     m_renderer.reset();
     m_device->waitIdle();
-    m_renderer = render::Renderer::create(*m_device, m_shaders);
-    if (!m_renderer) expect(gpu::Status::shaderError, "making the renderer");
+    m_renderer = makeRenderer();
     return *m_renderer;
+}
+
+std::unique_ptr<render::Renderer> Machine::makeRenderer() {
+    auto renderer = render::Renderer::create(*m_device, m_shaders);
+    if (!renderer) expect(gpu::Status::shaderError, "making the renderer");
+    return renderer;
 }
 
 ao::Library& Machine::library() {

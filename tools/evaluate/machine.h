@@ -26,6 +26,8 @@ public:
     const std::string& deviceName() const { return m_device->caps().deviceName; }
     // For a scene, made anew: nothing of an earlier scene can be in its pictures or times. The last one is gone.
     render::Renderer& newRenderer();
+    // One that its caller keeps, beside others; gone before the machine.
+    std::unique_ptr<render::Renderer> makeRenderer();
     render::Renderer& renderer() { return *m_renderer; }
     // Made when first asked for; throw app::Complaint.
     ao::Library& library();                  // for captured frames

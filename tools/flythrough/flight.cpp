@@ -66,7 +66,8 @@ Flight::Flight(evaluate::Machine& machine, const Script& script, const Settings&
     for (const Event& event : script.events)
         if (event.frame > 0 && event.frame >= settings.first && event.frame < settings.end && (m_events.empty() || m_events.back() != event.frame))
             m_events.push_back(event.frame);
-    if (machine.newRenderer().load(m_stage.worldAt(0)) != gpu::Status::ok)
+    m_renderer = machine.makeRenderer();
+    if (m_renderer->load(m_stage.worldAt(0)) != gpu::Status::ok)
         throw Complaint(fmt::format("{}: cannot be uploaded to {}", script.scene, machine.deviceName()), app::kFailed);
     draw();
     trace();
@@ -101,7 +102,7 @@ void Flight::draw() {
             render::FrameOptions wanted = options(frame);
             wanted.method = &none;
             wanted.cut = frame == 0;
-            const render::Outputs outputs = m_machine.renderer().add(graph, m_stage.worldAt(frame), wanted);
+            const render::Outputs outputs = m_renderer->add(graph, m_stage.worldAt(frame), wanted);
             size = {graph.desc(outputs.linearDepth).width, graph.desc(outputs.linearDepth).height};
             return std::vector{outputs.linearDepth, outputs.normals, outputs.motion};
         });
@@ -185,7 +186,7 @@ Flight::Drawn Flight::draw(const evaluate::Candidate& candidate, uint32_t frame,
         wanted.method = &candidate.values;
         wanted.voxels = candidate.voxels.over(wanted.voxels);
         wanted.cut = cut;
-        return std::vector{m_machine.renderer().add(graph, m_stage.worldAt(frame), wanted).visibility};
+        return std::vector{m_renderer->add(graph, m_stage.worldAt(frame), wanted).visibility};
     });
     Drawn drawn{truth::Plane(m_settings.size.x, m_settings.size.y), {}};
     const std::vector<std::byte>& bytes = ran.images[0];
@@ -204,7 +205,7 @@ Flight::Drawn Flight::draw(const evaluate::Candidate& candidate, uint32_t frame,
 Part Flight::measure(const evaluate::Candidate& chosen, Filter filter) {
     const evaluate::Candidate candidate = filtered(chosen, filter);
     Part part = empty(chosen, filter);
-    m_machine.expectMethod(m_machine.renderer().library(), candidate.info());
+    m_machine.expectMethod(m_renderer->library(), candidate.info());
     const std::filesystem::path folder = m_settings.out / "frames" / part.name();
     if (m_settings.pictures) {
         part.pictures = "frames/" + part.name();

@@ -29,6 +29,7 @@ struct Settings {
     bool still = true;                       // static noise, too
 };
 
+// Flights have renderers of their own: several may stand side by side.
 class Flight {
 public:
     // Draws the frames' geometry and has their references traced (or fetched). Throws app::Complaint or scene::Error.
@@ -61,6 +62,7 @@ private:
     evaluate::Machine& m_machine;
     Settings m_settings;
     Stage m_stage;
+    std::unique_ptr<render::Renderer> m_renderer;
     evaluate::FalloffChoice m_falloff;
     std::vector<Geometry> m_geometry;        // by frame, from 0
     std::vector<truth::Traced> m_references; // by frame; empty before first - 1

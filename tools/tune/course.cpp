@@ -1,0 +1,71 @@
+#include "course.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/arguments.h"
+#include "app/complaint.h"
+#include "content.h"
+#include "scene/hash.h"
+
+namespace obscura::tune {
+
+Place placeOf(const std::string& text, const char* option) {
+    const size_t mark = text.rfind('@');
+    const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
+    if (at.size() != 1 || at[0] < 0.0f) throw app::Complaint(fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough", option, text));
+    const evaluate::SceneFile file = evaluate::findScene(text.substr(0, mark));
+    if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.name));
+    return {file.name, at[0], text};
+}
+
+Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs, const flythrough::Settings& settings) {
+    for (const Place& place : places)
+        for (const evaluate::FalloffChoice& falloff : falloffs) {
+            flythrough::Settings with = settings;
+            with.falloff = falloff;
+            const std::string script = fmt::format("{}@{:g}", evaluate::findScene(place.scene).flythrough->string(), place.at);
+            m_flights.push_back(std::make_unique<flythrough::Flight>(machine, flythrough::findScript(script), with));
+            m_names.push_back(place.text + " " + falloff.text);
+        }
+}
+
+Leg Course::fly(size_t leg, const evaluate::Candidate& candidate) {
+    const auto filter = flythrough::hasHistory(candidate) ? flythrough::Filter::temporal : flythrough::Filter::spatial;
+    const flythrough::Summary summary = summarize(m_flights[leg]->measure(candidate, filter));
+    return {summary.eA, summary.flickerOfError, summary.milliseconds};
+}
+
+std::string Course::keyOf(const evaluate::Candidate& candidate) const {
+    scene::Hash hash;
+    for (const auto& flight : m_flights) hash.add(flight->keyOf(candidate, flythrough::Filter::spatial));
+    return hash.hex();
+}
+
+Score score(Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand, const std::vector<Leg>& handLegs) {
+    Score result;
+    double logError = 0.0, logTime = 0.0, flicker = 0.0, handFlicker = 0.0;
+    for (size_t leg = 0; leg < course.size(); ++leg) {
+        const Leg is = course.fly(leg, candidate), then = course.fly(leg, hand);  // the hand-set one's time now: the machine drifts
+        const Leg& was = handLegs[leg];
+        result.errors.push_back(is.eA / std::max(was.eA, 1e-6));
+        result.times.push_back(is.milliseconds / std::max(then.milliseconds, 1e-6));
+        logError += std::log(std::max(result.errors.back(), 1e-6));
+        logTime += std::log(std::max(result.times.back(), 1e-6));
+        flicker += is.flicker, handFlicker += was.flicker;
+    }
+    const double legs = double(course.size());
+    result.error = std::exp(logError / legs);
+    result.time = std::exp(logTime / legs);
+    constexpr double kFloor = 1e-4;  // of F_e, below which nobody sees it
+    result.flicker = (flicker / legs + kFloor) / (handFlicker / legs + kFloor);
+    return result;
+}
+
+double objective(const Score& score, const Limits& limits) {
+    constexpr double kTimeWeight = 4.0, kFlickerWeight = 4.0;
+    return score.error * (1.0 + kTimeWeight * std::max(0.0, score.time / limits.time - 1.0)) * (1.0 + kFlickerWeight * std::max(0.0, score.flicker / limits.flicker - 1.0));
+}
+
+}  // namespace obscura::tune
