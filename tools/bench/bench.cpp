@@ -1,7 +1,6 @@
 #include "bench.h"
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -17,8 +16,6 @@
 namespace obscura::bench {
 
 namespace fs = std::filesystem;
-
-bool isYardstick(const ao::MethodInfo& info) { return std::strcmp(info.id, "hbao") == 0 || std::strcmp(info.id, "mipmap") == 0; }
 
 namespace {
 
@@ -118,7 +115,7 @@ private:
         row.settings = fmt::format("{}", fmt::join(candidate.settings, " "));
         row.width = m_shots[shot].frame.visible().x;
         row.height = m_shots[shot].frame.visible().y;
-        row.yardstick = isYardstick(candidate.info());
+        row.yardstick = candidate.info().yardstick;
         row.triangles = m_loaded.triangles();
         row.reach = ao::reach(falloff.falloff);
         row.varied = fmt::format("{}", fmt::join(candidate.varied, " "));

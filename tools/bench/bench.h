@@ -9,7 +9,4 @@ namespace obscura::bench {
 // Throws app::Complaint or scene::Error.
 Results measure(const Options& options, evaluate::Machine& machine);
 
-// A method that stands in the library to be measured against.
-bool isYardstick(const ao::MethodInfo& info);
-
 }  // namespace obscura::bench
