@@ -20,6 +20,7 @@ MethodEntry mipmapEntry();
 MethodEntry hybridEntry();
 MethodEntry layeredEntry();
 MethodEntry gtaoEntry();
+MethodEntry visibilityBitmaskEntry();
 
 namespace {
 
@@ -56,7 +57,7 @@ struct Composed {
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
         std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(),
-                                         gtaoEntry()};
+                                         gtaoEntry(), visibilityBitmaskEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

@@ -54,14 +54,14 @@ const Parameter kParameters[] = {
 const Setting kLow[] = {{"slices", 1}, {"steps", 2}};
 const Setting kMedium[] = {{"slices", 2}, {"steps", 2}};
 const Setting kUltra[] = {{"slices", 9}};
-const Setting kTuned[] = {{"radius_scale", 1.2f}, {"weighting", 1}, {"axis", 1}, {"power", 1.6f}, {"floor", 0}};
+const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"radius_scale", 1}, {"weighting", 1}, {"axis", 1}, {"power", 1.3f}, {"floor", 0}};
 const Preset kPresets[] = {
     {"default", "3 slices x 3 steps a side, XeGTAO's high.", {}},
     {"low", "XeGTAO's low: 1 x 2.", {kLow, std::size(kLow)}},
     {"medium", "XeGTAO's medium: 2 x 2.", {kMedium, std::size(kMedium)}},
     {"high", "XeGTAO's high: 3 x 3.", {}},
     {"ultra", "XeGTAO's ultra: 9 x 3.", {kUltra, std::size(kUltra)}},
-    {"tuned", "3 x 3 with arcs that count one by one and slices around the view ray.", {kTuned, std::size(kTuned)}},
+    {"tuned", "1 x 9, arcs that count one by one, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"gtao",
                        "Ground-truth ambient occlusion",

@@ -1,0 +1,104 @@
+// Visibility bitmask [Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023], what engines took up
+// after GTAO: to be compared with. Slices of the hemisphere through the view ray are GTAO's (gtao.cpp), but instead of two horizons a
+// slice has 32 sectors of equal angle about the normal, and everything is `thickness` thick: a sample d from the pixel covers the
+// sectors from the angle of d to that of d - thickness v, so that light passes behind what is thin.
+//     A = 1/N sum over slices of 1/32 * sum over sectors covered of rho(d of what covered it first)
+// The published sum has no falloff: with `constant` that is what this is. Sectors that are touched are covered, as published.
+//
+// `sectors` equal weight goes further, off by default: sectors hold equal parts of the cosine-weighted solid angle (which obscurance is
+// defined by; equal angles weigh the horizon too much), are rounded instead of touched, and samples in the pixel's tangent plane are
+// left out; `axis` makes slices even around the view ray.
+//
+// Samples, noise, depth levels and denoiser are XeGTAO's, with which engines ship it. Reads linear depth and normals, guard band
+// included; writes visibility of the visible part. Passes: depths, sectors, denoise twice.
+#include <iterator>
+
+#include "ao/depth_mips.h"
+#include "ao/edge_blur.h"
+#include "ao/resolve.h"
+
+namespace obscura::ao {
+namespace {
+
+struct Constants {  // sectors.comp
+    shared::FalloffBlock falloff;
+    uint32_t slices, steps;
+    float thickness, mipOffset;
+    uint32_t rayAxis;
+};
+
+enum Blur : uint32_t { kNone, kEdges, kSurface };
+const char* const kSectors[] = {"equal angle", "equal weight"};
+const char* const kAxes[] = {"screen", "view ray"};
+const char* const kBlurs[] = {"none", "edges", "surface"};
+const Parameter kParameters[] = {
+    {"slices", "", 1, 32, 3, true, {}, "Slices of the hemisphere through the view ray; cost grows with slices x steps."},
+    {"steps", "", 1, 32, 3, true, {}, "Samples to each side of a slice, out to the falloff's reach."},
+    {"thickness", "m", 0.001f, 1000, 0.25f, false, {}, "How thick everything is taken to be."},
+    {"sectors", "", 0, 1, 0, true, {kSectors, 2}, "What the 32 sectors of a slice share out: its angle as published, or its cosine-weighted part of the hemisphere."},
+    {"axis", "", 0, 1, 0, true, {kAxes, 2}, "Where slices lie evenly: on the screen as published, or around each pixel's view ray, which is right off the picture's centre."},
+    {"mip_offset", "", 0, 30, 3.3f, false, {}, "Samples farther than 2 to this, px, come from coarser depths: kinder to caches, softer."},
+    {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "5x5 over the noise: cut at edges of depth as published, or along the surface."},
+};
+const Setting kLow[] = {{"slices", 1}, {"steps", 2}};
+const Setting kMedium[] = {{"slices", 2}, {"steps", 2}};
+const Setting kUltra[] = {{"slices", 9}};
+const Setting kFilament[] = {{"slices", 4}, {"thickness", 0.5f}};
+const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"thickness", 0.5f}, {"sectors", 1}, {"axis", 1}, {"denoise", kSurface}};
+const Preset kPresets[] = {
+    {"default", "3 slices x 3 steps a side, surfaces 0.25 m thick: Bevy's high.", {}},
+    {"low", "Bevy's low: 1 x 2.", {kLow, std::size(kLow)}},
+    {"medium", "Bevy's medium: 2 x 2.", {kMedium, std::size(kMedium)}},
+    {"ultra", "Bevy's ultra: 9 x 3.", {kUltra, std::size(kUltra)}},
+    {"filament", "Filament's thickness: 4 x 3, 0.5 m.", {kFilament, std::size(kFilament)}},
+    {"tuned", "1 x 9, half a metre, sectors of equal weight, slices around the view ray.", {kTuned, std::size(kTuned)}},
+};
+const MethodInfo kInfo{"visibility_bitmask",
+                       "Visibility bitmask",
+                       "Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023",
+                       "Sectors of slices through the view ray, covered by samples of a constant thickness.",
+                       kDepth | kNormals,
+                       {kParameters, std::size(kParameters)},
+                       {kPresets, std::size(kPresets)},
+                       true};
+
+class VisibilityBitmask final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<VisibilityBitmask>();
+        for (uint32_t cosine = 0; cosine < 2; ++cosine)
+            if (gpu::Program::compute(device, shaders, "ao/visibility_bitmask/sectors.comp", {{0, cosine}}, result->m_sectors[cosine]) != gpu::Status::ok) return nullptr;
+        if (DepthMips::create(device, shaders, DepthMips::Filter::farthest, result->m_depths) != Status::ok) return nullptr;
+        if (EdgeBlur::create(device, shaders, result->m_edgeBlur) != Status::ok) return nullptr;
+        if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
+        return result;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        const auto& visible = inputs.view.visible;
+        const Constants constants{inputs.falloff, values.count("slices"), values.count("steps"), values["thickness"], values["mip_offset"], values.count("axis")};
+        const graph::ImageId depths = m_depths.add(graph, inputs, "visibility_bitmask.depths", inputs.falloff.reach);
+        const graph::ImageId noisy = graph.image("visibility_bitmask.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});
+        graph.pass("visibility_bitmask.sectors", m_sectors[values.count("sectors")]).read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy)
+            .constants(constants).dispatch(visible.x, visible.y);
+
+        const uint32_t blur = values.count("denoise");
+        const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == kEdges, "visibility_bitmask.denoise");
+        return blur == kSurface ? m_denoise.add(graph, inputs, visibility, "visibility_bitmask.blur") : visibility;
+    }
+
+    // What passes behind a sample at more than its thickness has not been counted.
+    Blocking blocking(const Inputs& inputs, const Values& values) const override { return {inputs.falloff.reach, values["thickness"]}; }
+
+private:
+    DepthMips m_depths;
+    gpu::Program m_sectors[2];  // of equal angle, of equal weight
+    EdgeBlur m_edgeBlur;
+    Denoise m_denoise;
+};
+
+}  // namespace
+
+MethodEntry visibilityBitmaskEntry() { return {&kInfo, &VisibilityBitmask::create}; }
+
+}  // namespace obscura::ao
