@@ -21,6 +21,7 @@ MethodEntry hybridEntry();
 MethodEntry layeredEntry();
 MethodEntry gtaoEntry();
 MethodEntry visibilityBitmaskEntry();
+MethodEntry ssaoEntry();
 
 namespace {
 
@@ -57,7 +58,7 @@ struct Composed {
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
         std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(),
-                                         gtaoEntry(), visibilityBitmaskEntry()};
+                                         gtaoEntry(), visibilityBitmaskEntry(), ssaoEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;
