@@ -22,6 +22,7 @@ MethodEntry layeredEntry();
 MethodEntry gtaoEntry();
 MethodEntry visibilityBitmaskEntry();
 MethodEntry ssaoEntry();
+MethodEntry volumetricEntry();
 
 namespace {
 
@@ -58,7 +59,7 @@ struct Composed {
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
         std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(),
-                                         gtaoEntry(), visibilityBitmaskEntry(), ssaoEntry()};
+                                         gtaoEntry(), visibilityBitmaskEntry(), ssaoEntry(), volumetricEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;
