@@ -23,6 +23,7 @@ MethodEntry gtaoEntry();
 MethodEntry visibilityBitmaskEntry();
 MethodEntry ssaoEntry();
 MethodEntry volumetricEntry();
+MethodEntry scalableEntry();
 
 namespace {
 
@@ -59,7 +60,7 @@ struct Composed {
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
         std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(), farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(),
-                                         gtaoEntry(), visibilityBitmaskEntry(), ssaoEntry(), volumetricEntry()};
+                                         gtaoEntry(), visibilityBitmaskEntry(), ssaoEntry(), volumetricEntry(), scalableEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;
