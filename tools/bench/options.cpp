@@ -97,8 +97,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     evaluate::addDevice(cli, what.device, what.validation, what.verbose);
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
-    options.command = "obscura-bench";
-    for (int i = 1; i < argc; ++i) options.command += " " + app::shellWord(argv[i]);
+    options.command = evaluate::commandOf("obscura-bench", argc, argv);
     options.out = out;
     if (!options.from.empty()) {
         for (const char* option : {"--scene", "--triangles", "--method", "--preset", "--set", "--falloff", "--size", "--camera"})

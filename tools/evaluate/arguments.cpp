@@ -28,4 +28,14 @@ void addDevice(CLI::App& cli, std::string& device, std::string& validation, bool
     cli.add_flag("--verbose", verbose, "Print what the device and the loader have to say");
 }
 
+std::string commandOf(const char* program, int argc, const char* const* argv) {
+    std::string command = program;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i], option = word.substr(0, word.find('='));
+        if (option != "--out" && option != "--table" && option != "--compare" && option != "--device") command += " " + app::shellWord(word);
+        else if (option == word) ++i;
+    }
+    return command;
+}
+
 }  // namespace obscura::evaluate

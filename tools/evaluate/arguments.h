@@ -21,4 +21,7 @@ void addJudged(CLI::App& cli, Judged& into, const char* setHelp = "METHOD.PARAME
 // --device, --validation, --verbose and their group.
 void addDevice(CLI::App& cli, std::string& device, std::string& validation, bool& verbose);
 
+// The line as it is told in results: without --out, --table, --compare and --device, which say where things are here.
+std::string commandOf(const char* program, int argc, const char* const* argv);
+
 }  // namespace obscura::evaluate

@@ -57,8 +57,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     evaluate::addDevice(cli, options.device, options.validation, options.verbose);
     if (!app::parse(cli, argc, argv)) return std::nullopt;
 
-    options.command = "obscura-tune";
-    for (int i = 1; i < argc; ++i) options.command += " " + app::shellWord(argv[i]);
+    options.command = evaluate::commandOf("obscura-tune", argc, argv);
     options.out = out;
     for (const evaluate::Candidate& hand : evaluate::candidates(judged.methods, judged.presets, judged.allSets()))
         if (hand.info().needs) options.hands.push_back(hand);
