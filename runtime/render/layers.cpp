@@ -59,7 +59,7 @@ ao::LayerSources LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::B
                                  const Deform::Posed& posed, Materials& materials, ao::LayerUse use, LayerForm form) {
     const uint32_t width = graph.desc(g.depth).width, height = graph.desc(g.depth).height;
     const bool second = use != ao::LayerUse::first, half = use == ao::LayerUse::secondHalf;
-    const bool ladder = m_canWrite && form != LayerForm::peeling;
+    const bool ladder = m_canWrite && (form == LayerForm::ladder || (form == LayerForm::best && second));
     const char* const names[] = {"layers.second hit", "layers.third hit", "layers.fourth hit"};
     graph::ImageId hits[3];
     if (ladder) {

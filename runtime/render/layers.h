@@ -12,7 +12,8 @@ class LayersPass {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayersPass& out);
     // As ao::DepthLayers describes them, guard band included; no second one with LayerUse::first. Peeling then finds a single hit, to
-    // which solids within solids are sheets; the ladder always finds three. Where fragments cannot write, the ladder is peeling.
+    // which solids within solids are sheets; the ladder always finds three. LayerForm::best is peeling then, else the ladder. Where fragments
+    // cannot write, the ladder is peeling.
     // `list` must stay until the graph has run.
     ao::LayerSources add(graph::Graph& graph, const GBuffer& gbuffer, graph::BufferId frame, graph::BufferId items, const DrawList& list,
                          const Deform::Posed& posed, Materials& materials, ao::LayerUse use, LayerForm form);

@@ -105,6 +105,17 @@ TEST_F(LayeredTest, errorFallsWithEverySampleMore) {
     }
 }
 
+TEST_F(LayeredTest, othersLetThingsEndAsWell) {
+    const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {0, 0, -7.4f}, {0.1f, 0, 0}}};
+    const Room room = frameOf(world, 512, 296, 32);
+    for (const char* method : {"hbao", "horizon_split"}) {
+        m_method = method;
+        const Errors bare = onWall(room, run(room, values({}), kRamp), world), ended = onWall(room, run(room, values({{"depth_layers", 3}}), kRamp), world);
+        EXPECT_LT(ended.eA, 0.8 * bare.eA) << method;
+        EXPECT_LT(std::abs(ended.bias), std::abs(bare.bias)) << method;
+    }
+}
+
 TEST_F(LayeredTest, aBoardBehindABoardStillShadesTheWall) {
     // The second board is seen past the first by nobody but through the second layer.
     const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::box, {0, 0, -6.6f}, {0.4f, 5, 0.05f}}, {Kind::box, {0, 0, -7.7f}, {0.5f, 5, 0.05f}}};

@@ -12,6 +12,7 @@
 // - Lines start one whole pixel above the surface [eq. 13 gives half of one]: with it any plane is open to the last bit.
 // - The elevation is that of the point found, a texel's centre, not its projection on the plane of n and t.
 // - Normal rays may run through voxels instead of the depth buffer (`rays_in`); the off-screen pass has nothing left to add then.
+//   Or through depth layers (`depth_layers`), where what blocks a ray ends where it does instead of after `thickness`.
 // - Surfaces have a thickness, one for what bends a line and one for what blocks a ray: what passes further behind them
 //   than that is not concerned [sec. 5 names the trouble: figure 13's outliers]. In the paper everything is endlessly thick.
 //
@@ -22,6 +23,7 @@
 #include <utility>
 
 #include "ao/resolve.h"
+#include "ao/spans.h"
 
 namespace obscura::ao {
 namespace {
@@ -54,6 +56,8 @@ const Parameter kParameters[] = {
     {"offset", "px", 0, 4, 1, false, {}, "How far above the surface lines start; below 1 slanted planes shadow themselves."},
     {"jitter", "", 0, 1, 1, false, {}, "How much steps are shifted from pixel to pixel; 0 shows bands."},
     {"term", "", 0, 3, 0, true, {kTerms, 4}, "What is shown: the sum, one term alone, or rays through the whole hemisphere with no horizon at all."},
+    kDepthLayers,
+    kSheet,
     kInterleave,
     {"blur", "", 0, 2, 2, true, {kBlurs, 3}, "5x5 over the 4x4 noise tile: by depth as in the paper, or along the surface."},
 };
@@ -82,9 +86,11 @@ public:
                                                                                 {"ao/horizon_split/normal_rays.comp", &result->m_normalRays},
                                                                                 {"ao/horizon_split/normal_rays_voxels.comp", &result->m_voxelRays[0]},
                                                                                 {"ao/horizon_split/normal_rays_nanovdb.comp", &result->m_voxelRays[1]},
+                                                                                {"ao/horizon_split/normal_rays_layers.comp", &result->m_layerRays},
                                                                                 {"ao/horizon_split/blur.comp", &result->m_blur}};
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+        if (SpansPass::create(device, shaders, result->m_spans) != Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
         if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
         return result;
@@ -112,10 +118,12 @@ public:
         if (constants.rays) {
             const graph::ImageId above = graph.image("horizon_split.above horizon", picture), both = graph.image("horizon_split.visibility", picture);
             const bool inVoxels = values.count("rays_in") && inputs.volume;
-            graph::Pass& pass = graph.pass("horizon_split.normal rays", inVoxels ? m_voxelRays[size_t(inputs.volume.structure)] : m_normalRays);
+            const graph::ImageId spans = inputs.layers.thickness && !inVoxels ? m_spans.add(graph, inputs, values["sheet"], 0.0f) : graph::ImageId{};
+            graph::Pass& pass = graph.pass("horizon_split.normal rays", inVoxels ? m_voxelRays[size_t(inputs.volume.structure)] : spans ? m_layerRays : m_normalRays);
             pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(result).read(horizons).write(above).write(both);
+            if (spans) pass.read(spans);
             if (inVoxels) pass.read(inputs.volume.block).read(inputs.volume.bits);
-            else if (values.count("rays_in") && !std::exchange(m_said, true))
+            if (values.count("rays_in") && !inVoxels && !std::exchange(m_said, true))
                 graph.device().log(gpu::Severity::warning, "horizon_split: the frame brings no volume, so normal rays run through the depth buffer");
             pass.constants(constants).dispatch(visible.x, visible.y);
             result = term == kNormalRays ? above : both;
@@ -146,8 +154,9 @@ private:
     }
 
     gpu::Program m_horizons;
-    gpu::Program m_normalRays, m_voxelRays[2];  // the latter by structure
+    gpu::Program m_normalRays, m_layerRays, m_voxelRays[2];  // the last by structure
     gpu::Program m_blur;
+    SpansPass m_spans;
     Denoise m_denoise;
     Gather m_gather;
     bool m_said = false;

@@ -1,0 +1,38 @@
+// Normal rays through depth layers: surfaces end where they do.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/common/spans.glsl"
+#include "ao/horizon_split/march.glsl"
+struct Space {
+    Lens lens;
+    vec3 start;  // in homogeneous pixels, as rays are
+};
+#include "ao/horizon_split/normal_rays.glsl"
+layout(set = 0, binding = 7, rgba32ui) uniform readonly uimage2D spans;
+
+Space spaceOf(View view, Origin origin) {
+    Lens lens = lensOf(view);
+    return Space(lens, toPixels(lens, origin.position));
+}
+vec3 towards(Space space, vec3 d) { return toPixels(space.lens, d); }
+
+// The middle of the step that found it. What a whole step passes through counts, however thin it is.
+float blockedAt(Space space, vec3 ray, Steps walk, float first) {
+    float result = kFree, before = 0.0, zBefore = space.start.z;
+    float at = first;
+    for (uint j = 0u; j < walk.count; ++j) {
+        float l = metresAt(walk, at);
+        vec3 q = space.start + l * ray;
+        ivec2 texel;
+        bool inside = texelOf(space.lens, q, texel);
+        Spans matter = unpackSpans(imageLoad(spans, texel));
+        float near = min(q.z, zBefore), far = max(q.z, zBefore);
+        bool meets = q.z > matter.first && near < matter.first + abs(matter.firstLength);
+        bool meetsSecond = matter.second > 0.0 && far > matter.second && near < matter.second + abs(matter.secondLength);
+        result = inside && (meets || meetsSecond) ? min(result, 0.5 * (l + before)) : result;
+        before = l;
+        zBefore = q.z;
+        at += walk.part;
+    }
+    return result;
+}
