@@ -28,8 +28,7 @@ namespace {
 struct Constants {  // horizons.comp
     shared::FalloffBlock falloff;
     uint32_t slices, steps;
-    float distribution, mipOffset;
-    float power, least;
+    float mipOffset, power, least;
     uint32_t rayAxis;
 };
 
@@ -45,7 +44,6 @@ const Parameter kParameters[] = {
     {"radius_scale", "", 0.3f, 3, 1.457f, false, {}, "How much longer the falloff is made, against what samples miss."},
     {"weighting", "", 0, 1, 0, true, {kWeightings, 2}, "How far samples count less: by mixing their horizon as published, or each for the arc that it newly covers."},
     {"axis", "", 0, 1, 0, true, {kAxes, 2}, "Where slices lie evenly: on the screen as published, or around each pixel's view ray, which is right off the picture's centre."},
-    {"distribution", "", 1, 3, 2, false, {}, "How samples lie along a slice: 1 evenly, above that denser near the pixel."},
     {"mip_offset", "", 0, 30, 3.3f, false, {}, "Samples farther than 2 to this, px, come from coarser depths: kinder to caches, softer."},
     {"power", "", 0.5f, 5, 2.2f, false, {}, "Visibility is raised to this."},
     {"floor", "", 0, 1, 0.03f, false, {}, "Least visibility."},
@@ -86,7 +84,7 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const Constants constants{stretched(inputs.falloff, values["radius_scale"]), values.count("slices"), values.count("steps"), values["distribution"],
+        const Constants constants{stretched(inputs.falloff, values["radius_scale"]), values.count("slices"), values.count("steps"),
                                   values["mip_offset"], values["power"], values["floor"], values.count("axis")};
         const graph::ImageId depths = m_depths.add(graph, inputs, "gtao.depths", kNearRange * constants.falloff.reach);
         const graph::ImageId noisy = graph.image("gtao.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});

@@ -7,12 +7,11 @@
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
     uint slices;
-    uint steps;          // a side
-    float distribution;  // samples lie at t to this power of the reach
-    float mipOffset;     // log2 of px up to which level 0 is read
-    float power;         // of visibility
-    float least;         // visibility
-    uint rayAxis;        // slices lie evenly 0: on the screen, 1: around the view ray
+    uint steps;       // a side
+    float mipOffset;  // log2 of px up to which level 0 is read
+    float power;      // of visibility
+    float least;      // visibility
+    uint rayAxis;     // slices lie evenly 0: on the screen, 1: around the view ray
 };
 layout(constant_id = 0) const bool kArcs = false;
 
@@ -32,8 +31,7 @@ void main() {
         vec2 horizon = low, covered = vec2(0.0);
         vec2 before = kArcs ? vec2(sliceArc(r.nv, no, low.x), sliceArc(r.nv, -no, low.y)) : vec2(0.0);
         for (uint i = 0u; i < steps; ++i) {
-            float t = placeOf(r, k, i, steps);
-            float l = (distribution == 2.0 ? t * t : pow(t, distribution)) * r.radius + kTooClose;
+            float t = placeOf(r, k, i, steps), l = t * t * r.radius + kTooClose;  // denser near the pixel
             int level = levelAt(l, mipOffset);
             vec2 offset = floor(l * slice.along + 0.5);
             for (int side = 0; side < 2; ++side) {
