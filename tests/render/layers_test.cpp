@@ -153,6 +153,23 @@ TEST_F(Layers, closedThingsAreSolidHoweverTheyMove) {
     }
 }
 
+TEST_F(Layers, whatHoldsAnotherEndsAtItsOwnBack) {
+    scene::World alone = oneWorld(turningCube()), holding = alone;
+    scene::Instance within = instanceOf(turningCube());
+    within.placement = within.placement * glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
+    holding.add(within);
+    const Picture bare = draw(alone), full = draw(holding);
+    size_t covered = 0, different = 0;
+    for (uint32_t y = 0; y < bare.size.height; ++y)
+        for (uint32_t x = 0; x < bare.size.width; ++x) {
+            if (depthAt(bare, x, y) == 0.0f) continue;
+            ++covered;
+            different += thicknessAt(bare, x, y) != thicknessAt(full, x, y);
+        }
+    EXPECT_GT(covered, 2000u);
+    EXPECT_LT(different, covered / 100);
+}
+
 TEST_F(Layers, openThingsAreSheetsWhatever) {
     for (const auto& model : {wavingPatch(), floorPlate()}) {
         const Counts counts = count(draw(oneWorld(model)));
