@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,37 @@ const ao::Preset* presetOf(const ao::Values& values) {
     for (const ao::Preset& preset : values.info().presets) {
         ao::Values same(values.info());
         same.apply(preset);
+        if (same == values) return &preset;
+    }
+    return nullptr;
+}
+
+void resolve(ao::Values& values, const ao::Preset& wanted) {
+    // As a preset of the method has it: of that which differs in nothing else, or the first.
+    const auto reset = [&](ao::Values to, const ao::Preset& preset) {
+        ao::Values own(values.info());
+        own.apply(preset);
+        for (const ao::Preset& resolve : ao::resolvePresets())
+            for (const ao::Setting& setting : resolve.settings)
+                if (own.has(setting.id)) to.set(setting.id, own[setting.id]);
+        return std::pair(to, to == own);
+    };
+    if (values.info().presets.size() > 0) {
+        ao::Values next = reset(values, values.info().presets[0]).first;
+        for (const ao::Preset& preset : values.info().presets)
+            if (const auto [own, same] = reset(values, preset); same) {
+                next = own;
+                break;
+            }
+        values = next;
+    }
+    values.resolve(wanted);
+}
+
+const ao::Preset* resolveOf(const ao::Values& values) {
+    for (const ao::Preset& preset : ao::resolvePresets()) {
+        ao::Values same = values;
+        resolve(same, preset);
         if (same == values) return &preset;
     }
     return nullptr;
@@ -99,6 +131,14 @@ void Choice::applyPreset(const std::string& id) {
         return;
     }
     throw Complaint(fmt::format("--preset {}: {} has no such preset; {}", id, info().id, app::choices(id, names)));
+}
+
+void Choice::applyResolve(const std::string& id) {
+    const ao::Preset* preset = ao::findResolvePreset(id.c_str());
+    std::vector<std::string> names;
+    for (const ao::Preset& known : ao::resolvePresets()) names.emplace_back(known.id);
+    if (!preset) throw Complaint(fmt::format("--resolve {}: {}", id, app::choices(id, names)));
+    resolve(values(), *preset);
 }
 
 void Choice::assign(const std::string& assignment) {

@@ -22,6 +22,7 @@ public:
     // From text, as on a command line; throw app::Complaint that lists what there is.
     void select(const std::string& id);
     void applyPreset(const std::string& id);        // to the selected method, from its initial values on
+    void applyResolve(const std::string& id);       // likewise, over what is there
     void assign(const std::string& assignment);     // "METHOD.PARAMETER=VALUE", or "PARAMETER=VALUE" for the selected one
     void assignToAll(const std::string& parameter, const std::string& value);  // and to every other method that has it
     void setFalloff(const std::string& text);
@@ -37,6 +38,9 @@ private:
 std::vector<std::string> methodIds();
 // Which preset the values are at this moment; null when they are nobody's.
 const ao::Preset* presetOf(const ao::Values& values);
+// Which of ao::resolvePresets() they are at, and how they get there: what such presets set goes back to what the method's own has first.
+const ao::Preset* resolveOf(const ao::Values& values);
+void resolve(ao::Values& values, const ao::Preset& preset);
 std::string label(const ao::Values& values);  // "hbao", "hbao 8x4", "hbao steps=4 temporal=0.9": the first preset goes without saying
 std::string falloffText(const ao::Falloff& falloff);  // as setFalloff reads it
 // The options that choose these values: --method ID --preset NAME or --set ..., or the same as one --compare.

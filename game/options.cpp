@@ -75,7 +75,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
                "\nExit codes: 0 done, 1 the machine could not do it, 2 bad input, 3 the validation layer complained\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::string method, preset, offscreen, falloff, compare, view = "final", slice, size, camera, path, eye, target;
+    std::string method, preset, resolve, offscreen, falloff, compare, view = "final", slice, size, camera, path, eye, target;
     std::vector<std::string> assignments;
     bool headless = false, listMethods = false, listScenes = false, listDevices = false, flythrough = false, noVsync = false;
     uint32_t frames = 1, switchTest = 0;
@@ -85,6 +85,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--scene", options.scene, "toasters, atrium, sponza, dragon, or the path of a glTF file")->group(kPicture)->capture_default_str();
     cli.add_option("--method", method, "Obscurance method, by its id (--list-methods)")->group(kPicture);
     cli.add_option("--preset", preset, "Preset of that method")->group(kPicture);
+    cli.add_option("--resolve", resolve, "What becomes of its samples: raw, spatial (its own blur), or temporal (and a history)")->group(kPicture);
     cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
         ->group(kPicture)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     cli.add_option("--offscreen", offscreen, app::kOffScreenHelp)->group(kPicture);
@@ -181,6 +182,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*fovOption) options.camera.fovDegrees = fov;
     if (!method.empty()) options.choice.select(method);
     if (!preset.empty()) options.choice.applyPreset(preset);
+    if (!resolve.empty()) options.choice.applyResolve(resolve);
     if (!offscreen.empty()) options.choice.assignToAll("offscreen", offscreen);
     for (const std::string& assignment : assignments) options.choice.assign(assignment);
     if (!falloff.empty()) options.choice.setFalloff(falloff);

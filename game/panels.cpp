@@ -48,6 +48,14 @@ void drawParameters(ao::Values& values) {
         }
         ImGui::EndCombo();
     }
+    const ao::Preset* resolved = info.needs ? resolveOf(values) : nullptr;
+    if (info.needs && ImGui::BeginCombo("resolve", resolved ? resolved->id : "(own)")) {
+        for (const ao::Preset& preset : ao::resolvePresets()) {
+            if (ImGui::Selectable(preset.id, &preset == resolved)) resolve(values, preset);
+            tip(preset.sentence);
+        }
+        ImGui::EndCombo();
+    }
     for (const ao::Parameter& parameter : info.parameters) {
         float value = values[parameter.id];
         const std::string label = *parameter.unit ? fmt::format("{} [{}]", parameter.id, parameter.unit) : parameter.id;

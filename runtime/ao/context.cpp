@@ -122,6 +122,16 @@ Status setMethod(Context* context, const char* id, const MethodSettings& setting
         return Status::invalid;
     }
     values.apply(*preset);
+    if (settings.resolve) {
+        const Preset* resolve = findResolvePreset(settings.resolve);
+        if (!resolve) {
+            std::string known;
+            for (const Preset& candidate : resolvePresets()) known += std::string(known.empty() ? "" : ", ") + candidate.id;
+            say(*context, std::string("there is no resolve preset '") + settings.resolve + "'; there are " + known);
+            return Status::invalid;
+        }
+        values.resolve(*resolve);
+    }
     for (const Setting& setting : settings.settings) {
         if (setting.id && values.set(setting.id, setting.value)) continue;
         std::string known;

@@ -49,6 +49,7 @@ class Values {
 public:
     explicit Values(const MethodInfo& info);                     // initial values
     bool apply(const Preset& preset);
+    void resolve(const Preset& preset);                          // one of resolvePresets(): over what is there, as far as the method has it
     bool set(const char* id, float value);                       // clamped; false: unknown id
     bool has(const char* id) const;
     float operator[](const char* id) const;                      // asserts that it exists

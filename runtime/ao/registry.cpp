@@ -33,6 +33,15 @@ const Parameter kShared[] = {
     {"temporal_clip", "sd", 0, 8, TemporalSettings{}.clip, false, {}, "The past is drawn into so many standard deviations of the present around; 0 lets moved occluders trail."},
 };
 
+const Setting kRaw[] = {{"denoise", 0}, {"blur", 0}, {"filter", 0}, {"temporal", 0}};
+const Setting kSpatial[] = {{"temporal", 0}};
+const Setting kTemporal[] = {{"temporal", 0.9f}};
+const Preset kResolves[] = {
+    {"raw", "Samples as they are.", {kRaw, std::size(kRaw)}},
+    {"spatial", "The method's own blur.", {kSpatial, std::size(kSpatial)}},
+    {"temporal", "The method's own blur, samples that rotate, and a history that averages them.", {kTemporal, std::size(kTemporal)}},
+};
+
 // And what every method has that looks at the screen alone: the off-screen pass, before the temporal one.
 const char* const kOffScreen[] = {"off", "offscreen", "hidden"};
 const Parameter kUnseen[] = {
@@ -83,6 +92,14 @@ const MethodInfo* findMethod(const char* id) {
     return nullptr;
 }
 
+List<Preset> resolvePresets() { return {kResolves, std::size(kResolves)}; }
+
+const Preset* findResolvePreset(const char* id) {
+    for (const Preset& preset : kResolves)
+        if (id && std::strcmp(preset.id, id) == 0) return &preset;
+    return nullptr;
+}
+
 uint32_t needs(const Values& values) {
     const MethodInfo& info = values.info();
     uint32_t result = info.needs;
@@ -103,6 +120,10 @@ bool Values::apply(const Preset& preset) {
     *this = Values(*m_info);
     for (const Setting& setting : preset.settings) known &= set(setting.id, setting.value);
     return known;
+}
+
+void Values::resolve(const Preset& preset) {
+    for (const Setting& setting : preset.settings) set(setting.id, setting.value);
 }
 
 bool Values::set(const char* id, float value) {

@@ -35,9 +35,11 @@ public:
     // parts: visibility of each pixel's share, R16F, visible size. With `open`, RG16F (weight x obscurance, weight), whose mean is taken
     // off that visibility. Returns visibility, R16F.
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, uint32_t side, graph::ImageId open = {});
+    // The same over a map (upsample.h) of visibility, its receivers and how many of the picture's pixels one of its stands for, each way.
+    graph::ImageId addMap(graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, graph::ImageId receivers, uint32_t scale, uint32_t side);
 
 private:
-    gpu::Program m_equal, m_weighted;
+    gpu::Program m_equal, m_weighted, m_map;
 };
 
 // What the past may say. The past is last frame's result where the motion vectors lead, bilinear over those of its four pixels
@@ -47,8 +49,8 @@ struct TemporalSettings {
     float depthTolerance = 0.02f; // how far off the surface's plane a past pixel may lie, in its depths [Hoang 2012, eps]
     float normalTolerance = 0.9f; // least cosine between the normals; -1: any
     float clip = 1.5f;            // past beyond so many standard deviations of the present is drawn in: occluders that move leave no
-                                  // trail on receivers that do not. They are of 3x3 pixels, two apart, off their slope. 0: off, as
-                                  // in the papers
+                                  // trail on receivers that do not. They are of 3x3 pixels, two apart, off their slope, and where a
+                                  // pixel moves on the screen of what it has been changing by. 0: off, as in the papers
     float clipFloor = 0.01f;      // and this much visibility more
 };
 
@@ -63,7 +65,7 @@ public:
 
 private:
     gpu::Program m_reproject;
-    graph::History m_past;  // RG32UI: linear depth as a float's bits; visibility, frames gathered and normal, see temporal.comp
+    graph::History m_past;  // RG32UI: linear depth and unrest; visibility, frames gathered and normal, see temporal.comp
 };
 
 }  // namespace obscura::ao

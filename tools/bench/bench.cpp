@@ -177,7 +177,7 @@ private:
                 for (Cell& cell : m_cells) {
                     if (cell.candidate != &candidate || cell.falloff->text != falloff.text || cell.row.flicker) continue;
                     if (!found) {
-                        const auto filter = flythrough::hasHistory(candidate) ? flythrough::Filter::temporal : flythrough::Filter::spatial;
+                        const ao::Preset& filter = *ao::findResolvePreset(flythrough::hasHistory(candidate) ? "temporal" : "spatial");
                         const flythrough::Summary summary = summarize(flight.measure(candidate, filter));
                         found = Flicker{summary.flickerOfError, summary.referenceFlicker};
                     }

@@ -11,6 +11,7 @@ CLI::Option* takeAll(CLI::Option* option) {
 std::vector<std::string> Judged::allSets() const {
     std::vector<std::string> all = sets;
     if (!offscreen.empty()) all.insert(all.begin(), "offscreen=" + offscreen);
+    if (!resolve.empty()) all.insert(all.begin(), "resolve=" + resolve);
     return all;
 }
 

@@ -13,8 +13,8 @@ CLI::Option* takeAll(CLI::Option* option);
 // --method, --preset, --set, --offscreen in the group that is current.
 struct Judged {
     std::vector<std::string> methods{"hbao"}, presets{"default"}, sets;
-    std::string offscreen;
-    std::vector<std::string> allSets() const;  // --offscreen among them
+    std::string offscreen, resolve;
+    std::vector<std::string> allSets() const;  // --offscreen and --resolve among them
 };
 void addJudged(CLI::App& cli, Judged& into, const char* setHelp = "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated");
 

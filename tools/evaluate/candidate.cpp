@@ -101,6 +101,7 @@ void assign(std::vector<Candidate>& list, const std::string& assignment) {
     const size_t dot = left.find('.');
     const std::string method = dot == std::string::npos ? "" : left.substr(0, dot), name = dot == std::string::npos ? left : left.substr(dot + 1);
     bool chosen = false, used = false;
+    const ao::Preset* resolve = name == "resolve" ? &resolvePreset("--set " + assignment, text) : nullptr;
     std::vector<std::string> names, ids;
     for (Candidate& candidate : list) {
         if (std::find(ids.begin(), ids.end(), candidate.info().id) == ids.end()) ids.emplace_back(candidate.info().id);
@@ -108,6 +109,12 @@ void assign(std::vector<Candidate>& list, const std::string& assignment) {
         chosen = true;
         for (const ao::Parameter& parameter : candidate.info().parameters)
             if (std::find(names.begin(), names.end(), parameter.id) == names.end()) names.emplace_back(parameter.id);
+        if (resolve) {
+            candidate.values.resolve(*resolve);
+            candidate.settings.push_back(assignment.substr(dot == std::string::npos ? 0 : dot + 1));
+            used = true;
+            continue;
+        }
         const ao::Parameter* parameter = parameterOf(candidate, name);
         if (!parameter) continue;
         const float value = valueOf(assignment, *parameter, text);
@@ -122,6 +129,13 @@ void assign(std::vector<Candidate>& list, const std::string& assignment) {
 }
 
 }  // namespace
+
+const ao::Preset& resolvePreset(const std::string& said, const std::string& id) {
+    std::vector<std::string> names;
+    for (const ao::Preset& known : ao::resolvePresets()) names.emplace_back(known.id);
+    if (const ao::Preset* preset = ao::findResolvePreset(id.c_str())) return *preset;
+    throw Complaint(fmt::format("{}: {}", said, app::choices(id, names)));
+}
 
 render::Voxelization VoxelChoice::over(render::Voxelization how) const {
     if (cells) how.cells = uint32_t(*cells);

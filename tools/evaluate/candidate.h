@@ -29,12 +29,16 @@ struct Candidate {
 };
 
 // Every method named (or "all") with every preset named (or "all") that it has, `sets` applied: "METHOD.PARAMETER=VALUE", or
-// "PARAMETER=VALUE" for every chosen method that has the parameter. Throws app::Complaint that lists what there is.
+// "PARAMETER=VALUE" for every chosen method that has the parameter; "resolve=NAME" stands for what one of ao::resolvePresets() sets.
+// Throws app::Complaint that lists what there is.
 std::vector<Candidate> candidates(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
                                   const std::vector<std::string>& sets);
 // The same where a setting may list values, "steps=4,8,16": a candidate for each combination, none twice.
 std::vector<Candidate> variants(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
                                 const std::vector<std::string>& sets);
+
+// One of ao::resolvePresets(), which `said` asked for; throws app::Complaint.
+const ao::Preset& resolvePreset(const std::string& said, const std::string& id);
 
 struct FalloffChoice {
     ao::Falloff falloff;

@@ -129,6 +129,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     cli.option_defaults()->group("What is judged");
     addJudged(cli, judged);
+    cli.add_option("--resolve", judged.resolve, "What becomes of their samples: raw, spatial (their own blur), or temporal (and a history); unless said, as the presets have it");
     takeAll(cli.add_option("--falloff", falloffTexts,
                            "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
     auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported (12; --gallery 7)")

@@ -37,27 +37,25 @@ app::Picture grey(const truth::Plane& plane) {
     return picture;
 }
 
+// A method runs shaders of its own folder and what all share.
+bool mayRun(const evaluate::Candidate& candidate, std::string_view shader) {
+    if (shader == "ao/common/temporal.comp") return hasHistory(candidate);
+    return shader.starts_with("ao/common/") || shader.starts_with(fmt::format("ao/{}/", candidate.info().id)) ||
+           (shader.starts_with("ao/offscreen/") && candidate.values.has("offscreen") && candidate.values["offscreen"] > 0.0f);
+}
+
 std::filesystem::path pictureFile(const std::filesystem::path& folder, uint32_t frame) { return folder / fmt::format("{:04}.png", frame); }
 
 }  // namespace
 
-const char* name(Filter filter) {
-    constexpr const char* kNames[] = {"raw", "spatial", "temporal"};
-    return kNames[size_t(filter)];
-}
-
 bool hasHistory(const evaluate::Candidate& candidate) { return candidate.values.has("temporal") && candidate.values["temporal"] > 0.0f; }
 
-evaluate::Candidate filtered(const evaluate::Candidate& candidate, Filter filter) {
-    constexpr float kHistory = 0.9f;
+evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Preset& filter) {
     evaluate::Candidate result = candidate;
-    if (filter == Filter::raw)
-        for (const char* blur : {"denoise", "blur", "filter"}) result.values.set(blur, 0.0f);
-    // A history that was asked for by name, or that the preset has, stays.
-    const bool asked = std::any_of(candidate.settings.begin(), candidate.settings.end(), [](const std::string& s) { return s.starts_with("temporal="); }) ||
-                       hasHistory(candidate);
-    if (filter != Filter::temporal) result.values.set("temporal", 0.0f);
-    else if (!asked) result.values.set("temporal", kHistory);
+    result.values.resolve(filter);
+    const bool asked = hasHistory(candidate) ||
+                       std::any_of(candidate.settings.begin(), candidate.settings.end(), [](const std::string& s) { return s.starts_with("temporal="); });
+    if (asked && hasHistory(result)) result.values.set("temporal", candidate.values["temporal"]);
     return result;
 }
 
@@ -142,11 +140,11 @@ void Flight::trace() {
     }
 }
 
-std::string Flight::keyOf(const evaluate::Candidate& candidate, Filter filter) const {
+std::string Flight::keyOf(const evaluate::Candidate& candidate, const ao::Preset& filter) const {
     scene::Hash hash;
     const Script& script = m_stage.script();
     hash.add(kMeasure).add(script.name).add(script.scene).add(m_falloff.text).add(m_settings.size.x).add(m_settings.size.y).add(m_settings.guard);
-    hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(int(m_settings.still)).add(std::string(candidate.info().id)).add(std::string(name(filter)));
+    hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(int(m_settings.still)).add(std::string(candidate.info().id)).add(std::string(filter.id));
     const evaluate::Candidate used = filtered(candidate, filter);
     for (const float value : used.values.values()) hash.add(value);
     for (const std::string& setting : candidate.settings)
@@ -159,17 +157,18 @@ std::string Flight::keyOf(const evaluate::Candidate& candidate, Filter filter) c
     for (const Event& event : script.events)
         hash.add(event.frame).add(event.box).add(&event.size, sizeof(event.size)).add(&event.at, sizeof(event.at)).add(int(event.gone));
     hash.add(m_geometry[0].frame.depth.data(), m_geometry[0].frame.depth.size() * sizeof(float));  // stands for the scene
-    for (const gpu::EmbeddedShader& shader : ao::shaders()) hash.add(shader.spirv.data(), shader.spirv.size_bytes());  // and these for the methods
+    for (const gpu::EmbeddedShader& shader : ao::shaders())  // and these for the method
+        if (mayRun(used, shader.name)) hash.add(shader.spirv.data(), shader.spirv.size_bytes());
     return hash.hex();
 }
 
-Part Flight::empty(const evaluate::Candidate& candidate, Filter filter) const {
+Part Flight::empty(const evaluate::Candidate& candidate, const ao::Preset& filter) const {
     Part part;
     part.flythrough = m_stage.script().name;
     part.method = candidate.info().id;
     part.preset = candidate.preset;
     for (const std::string& setting : candidate.settings) part.settings += (part.settings.empty() ? "" : " ") + setting;
-    part.filter = name(filter);
+    part.filter = filter.id;
     part.falloff = m_falloff.text;
     part.width = m_settings.size.x;
     part.height = m_settings.size.y;
@@ -202,7 +201,7 @@ Flight::Drawn Flight::draw(const evaluate::Candidate& candidate, uint32_t frame,
     return drawn;
 }
 
-Part Flight::measure(const evaluate::Candidate& chosen, Filter filter) {
+Part Flight::measure(const evaluate::Candidate& chosen, const ao::Preset& filter) {
     const evaluate::Candidate candidate = filtered(chosen, filter);
     Part part = empty(chosen, filter);
     m_machine.expectMethod(m_renderer->library(), candidate.info());

@@ -9,12 +9,9 @@
 
 namespace obscura::flythrough {
 
-// What is done with a method's samples before they are shown.
-enum class Filter { raw, spatial, temporal };  // nothing; its own blur; its blur and the shared temporal pass
-const char* name(Filter filter);
 bool hasHistory(const evaluate::Candidate& candidate);  // by its own values
-// The candidate with its blur and history set so.
-evaluate::Candidate filtered(const evaluate::Candidate& candidate, Filter filter);
+// The candidate resolved so (ao::resolvePresets()), but for a history that was asked for by name or that its preset has.
+evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Preset& filter);
 
 struct Settings {
     glm::uvec2 size{320, 180};
@@ -35,10 +32,10 @@ public:
     // Draws the frames' geometry and has their references traced (or fetched). Throws app::Complaint or scene::Error.
     Flight(evaluate::Machine& machine, const Script& script, const Settings& settings);
     // Identifies everything that determines a part's rows.
-    std::string keyOf(const evaluate::Candidate& candidate, Filter filter) const;
-    Part measure(const evaluate::Candidate& candidate, Filter filter);
+    std::string keyOf(const evaluate::Candidate& candidate, const ao::Preset& filter) const;
+    Part measure(const evaluate::Candidate& candidate, const ao::Preset& filter);
     // A part that says who it is and has no rows yet.
-    Part empty(const evaluate::Candidate& candidate, Filter filter) const;
+    Part empty(const evaluate::Candidate& candidate, const ao::Preset& filter) const;
     void writeReferencePictures() const;     // out/frames/NAME.reference
     const Script& script() const { return m_stage.script(); }
 

@@ -29,9 +29,9 @@ std::map<CalmKey, CalmRow> measureRows(const Calm& calm, const Options& options)
     for (const std::string& name : calm.flythroughs) {
         Flight flight(machine, findScript(name), settings);
         for (const evaluate::Candidate& candidate : options.candidates)
-            for (const Filter filter : {Filter::raw, Filter::spatial, Filter::temporal}) {
+            for (const ao::Preset& filter : ao::resolvePresets()) {
                 if (!candidate.info().needs) continue;  // draws nothing that could flicker
-                if (std::find(calm.filters.begin(), calm.filters.end(), flythrough::name(filter)) == calm.filters.end()) continue;
+                if (std::find(calm.filters.begin(), calm.filters.end(), filter.id) == calm.filters.end()) continue;
                 const Part part = flight.measure(candidate, filter);
                 const Summary summary = summarize(part);
                 rows[{part.method, part.preset, part.flythrough, part.filter}] = {summary.flickerOfError, summary.noiseMean, summary.t90};

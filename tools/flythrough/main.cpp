@@ -39,12 +39,12 @@ int fly(const Options& options) {
         Flight flight(machine, findScript(name), options.settings);
         if (options.settings.pictures) flight.writeReferencePictures();
         for (const evaluate::Candidate& candidate : options.candidates)
-            for (const Filter filter : options.filters) {
-                const Part wanted = flight.empty(candidate, filter);
+            for (const ao::Preset* filter : options.filters) {
+                const Part wanted = flight.empty(candidate, *filter);
                 const fs::path file = out / "parts" / fmt::format("{}.{}-{}.json", wanted.name(), wanted.first, wanted.end);
                 std::optional<Part> part = options.again ? std::nullopt : readPart(file);
                 if (!part || part->key != wanted.key) {
-                    part = flight.measure(candidate, filter);
+                    part = flight.measure(candidate, *filter);
                     app::writeFile(file, partText(*part));
                 }
                 parts.push_back(std::move(*part));

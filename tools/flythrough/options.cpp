@@ -16,12 +16,6 @@ using app::Complaint;
 
 namespace {
 
-Filter filterOf(const std::string& text) {
-    for (const Filter filter : {Filter::raw, Filter::spatial, Filter::temporal})
-        if (text == name(filter)) return filter;
-    throw Complaint(fmt::format("--filter {}: {}", text, app::choices(text, {"raw", "spatial", "temporal"})));
-}
-
 // "a:b", frames a to b - 1 of `length`.
 void setFrames(const std::string& text, Settings& settings) {
     settings.first = 0;
@@ -72,7 +66,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     cli.option_defaults()->group("What is judged");
     addJudged(cli, judged);
-    takeAll(cli.add_option("--modes,--filter", filters, "raw (no blur, no history), spatial (the preset's own blur), temporal (and a history)")->capture_default_str());
+    takeAll(cli.add_option("--modes,--filter", filters, "Resolve presets: raw (no blur, no history), spatial (the preset's own blur), temporal (and a history)")->capture_default_str());
     cli.add_option("--falloff", falloff, "KIND:LENGTH instead of the flythrough's own");
     cli.add_option("--rays", options.settings.rays, "Rays a pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
     cli.add_option("--seed", options.settings.seed, "Of the rays")->capture_default_str();
@@ -122,7 +116,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     }
     for (const std::string& flythrough : options.flythroughs) findScript(flythrough);
     options.candidates = evaluate::candidates(judged.methods, judged.presets, judged.allSets());
-    for (const std::string& filter : filters) options.filters.push_back(filterOf(filter));
+    for (const std::string& filter : filters) options.filters.push_back(&evaluate::resolvePreset("--modes " + filter, filter));
     if (*sizeOption) options.settings.size = app::sizeOf(size);
     if (!falloff.empty()) options.settings.falloff = evaluate::falloffs({falloff})[0];
     setFrames(frames, options.settings);

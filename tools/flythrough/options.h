@@ -11,7 +11,7 @@ struct Options {
     Job job = Job::fly;
     std::vector<std::string> flythroughs;
     std::vector<evaluate::Candidate> candidates;
-    std::vector<Filter> filters;
+    std::vector<const ao::Preset*> filters;   // of ao::resolvePresets()
     Settings settings;                             // out and pictures included
     bool video = true;
     bool again = false;                            // measure what is there already, too

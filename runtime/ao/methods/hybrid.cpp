@@ -7,7 +7,7 @@
 // and distances counted from the pixel's point although rays start a little above it (as to a surface that faces the ray).
 //
 // Rays spread evenly in the cosine over the cone, by the golden angle around the normal, from noise of the place in the world.
-// Reads the volume, linear depth and normals; writes visibility of the visible part.
+// Reads the volume, linear depth and normals; writes visibility of the visible part. The map's pixels may share out rays (the shared gather).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -22,6 +22,7 @@ struct Trace {
     shared::FalloffBlock falloff;
     uint32_t rays, steps, scale;
     float cone, offset, jitter, grain;
+    uint32_t side;  // of the interleaving tile
 };
 
 constexpr float kGrain = 0.1f;  // metres a cell of the noise
@@ -33,6 +34,7 @@ const Parameter kParameters[] = {
     {"spread", "", 0.1f, 1, 1, false, {}, "Half angle of the rays' cone over 90 degrees; less is sharper and wrong."},
     {"offset", "cells", 0, 8, 1.75f, false, {}, "How far above the surface rays start. A cell that a plane touches ends within sqrt(3) cells of it: below that a surface darkens itself, above it loses contact shadows."},
     {"map", "px", 1, 4, 2, true, {}, "Pixels a map's pixel, each way: 2 traces a quarter of them."},
+    kInterleave,
     {"filter", "px", 0, 32, 16, true, {}, "Width of the upsampling filter; 0: the smallest that fills the gaps."},
     {"filter_range", "", 0.01f, 1, 0.25f, false, {}, "Points further apart than this part of the falloff's reach share nothing."},
 };
@@ -57,21 +59,22 @@ public:
         auto result = std::make_unique<Hybrid>();
         if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {}, result->m_trace[0]) != gpu::Status::ok) return nullptr;
         if (gpu::Program::compute(device, shaders, "ao/hybrid/trace_nanovdb.comp", {}, result->m_trace[1]) != gpu::Status::ok) return nullptr;
-        if (Upsample::create(device, shaders, result->m_upsample) != Status::ok) return nullptr;
+        if (Upsample::create(device, shaders, result->m_upsample) != Status::ok || Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
         return result;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         if (!inputs.volume) return open(graph, inputs);
         const auto& visible = inputs.view.visible;
-        const uint32_t scale = values.count("map");
+        const uint32_t scale = values.count("map"), side = tileSide(values);
         const uint32_t width = (visible.x + scale - 1) / scale, height = (visible.y + scale - 1) / scale;
-        const graph::ImageId map = graph.image("hybrid.map", {VK_FORMAT_R16_SFLOAT, width, height});
+        graph::ImageId map = graph.image("hybrid.map", {VK_FORMAT_R16_SFLOAT, width, height});
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
-        const Trace trace{inputs.falloff, values.count("rays"), values.count("steps"), scale, std::cos(values["spread"] * 1.5707963f), values["offset"],
-                          values["jitter"], 1.0f / kGrain};
+        const Trace trace{inputs.falloff, sharedOut(values.count("rays"), side), values.count("steps"), scale, std::cos(values["spread"] * 1.5707963f), values["offset"],
+                          values["jitter"], 1.0f / kGrain, side};
         graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)]).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits)
             .read(inputs.depth).read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
+        if (side > 1) map = m_gather.addMap(graph, inputs, map, receivers, scale, side);
         if (scale == 1 && values["filter"] < 1.0f) return map;
 
         const UpsampleSettings upsample{scale, std::max(values["filter"], 2.0f * float(scale)), values["filter_range"] * inputs.falloff.reach};
@@ -86,6 +89,7 @@ private:
 
     gpu::Program m_trace[2];  // by structure
     Upsample m_upsample;
+    Gather m_gather;
     bool m_said = false;
 };
 

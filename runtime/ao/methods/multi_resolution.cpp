@@ -17,12 +17,12 @@
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes, as in the paper's
 // table 7: downsample (n-1 times), sample (n), filter and upsample (n-1 each). Samples of all levels wait for nothing but
-// their level, so a GPU may run them side by side.
+// their level, so a GPU may run them side by side. The finest level's pixels may share out theirs (`interleave`, the shared gather).
 #include <algorithm>
 #include <iterator>
 #include <string>
 
-#include "ao/method.h"
+#include "ao/resolve.h"
 
 namespace obscura::ao {
 namespace {
@@ -40,6 +40,7 @@ struct SampleConstants {
     float maxRadius;  // texels
     float gain;
     uint32_t disk;
+    uint32_t side;    // of the interleaving tile
 };
 struct FilterConstants {
     shared::ivec2 origin, area;
@@ -50,6 +51,7 @@ struct UpsampleConstants {
     shared::ivec2 origin, area, coarseOrigin, coarseArea;
     float texel, perTolerance;
     uint32_t planes;
+    float samples;
 };
 
 const char* const kPatterns[] = {"squares", "disk at the finest", "disks"};
@@ -61,6 +63,7 @@ const Parameter kParameters[] = {
     {"max_radius", "texels", 1, 16, 7, false, {}, "Longest reach of samples in each level, r_max; beyond the paper's 5 the same samples lie further apart."},
     {"first_radius", "", 0.25f, 2, 1, false, {}, "Reach at the finest level over the falloff's own; it halves from level to level. 0.5 is the paper's equation 5."},
     {"pattern", "", 0, 2, 1, true, {kPatterns, 3}, "Where levels sample: up to 36 texels of a square, or 16 points on a disk, at the finest level as in the paper or at all."},
+    kInterleave,
     {"obscurance", "", 0, 1, 1, true, {kEstimates, 2}, "What samples add up to: a mean of cosines as in the paper, or squared cosines with a direction, which fine levels evaluate along their own normals."},
     {"gain", "", 0, 4, 1.7f, false, {}, "Factor on each level's obscurance."},
     {"threshold", "R", 0, 1000, 0.05f, false, {}, "Four texels become their median, or the second nearest if they lie further apart than this many reaches. 0: always the latter."},
@@ -119,15 +122,17 @@ public:
         for (const uint32_t directed : {0u, 1u}) {
             Programs& programs = result->m_programs[directed];
             made = made && make("ao/multi_resolution/sample.comp", {{0, directed}}, programs.sample) && make("ao/multi_resolution/filter.comp", {{0, directed}}, programs.filter) &&
-                   make("ao/multi_resolution/combine.comp", {{0, directed}}, programs.combine) && make("ao/multi_resolution/finish.comp", {{0, directed}}, programs.finish);
+                   make("ao/multi_resolution/combine.comp", {{0, directed}}, programs.combine) && make("ao/multi_resolution/finish.comp", {{0, directed}}, programs.finish) &&
+                   make("ao/multi_resolution/sample_shared.comp", {{0, directed}}, programs.sampleShared) && make("ao/multi_resolution/finish_gathered.comp", {{0, directed}}, programs.finishGathered);
         }
+        made = made && Gather::create(device, shaders, result->m_gather) == Status::ok;
         return made ? std::move(result) : nullptr;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
         const float reach = inputs.falloff.reach, perTolerance = 1.0f / (values["tolerance"] * reach);
-        const uint32_t planes = values.count("edges");
+        const uint32_t planes = values.count("edges"), side = tileSide(values);
         const bool directed = values.count("obscurance") == kDirected;
         Programs& programs = m_programs[directed];
         std::vector<Level> levels{{inputs.depth, inputs.normals, {}, {int32_t(view.size.x), int32_t(view.size.y)},
@@ -136,9 +141,18 @@ public:
 
         for (size_t i = levels.size(); i-- > 0;) {
             Level& level = levels[i];
-            level.obscurance = obscurance(graph, "near", level, directed && i > 0);
+            const bool shared = i == 0 && side > 1;
             const SampleConstants constants{inputs.falloff, level.size, level.origin, level.area, level.texel, values["first_radius"], values["max_radius"],
-                                            values["gain"], values.count("pattern") > (i ? 1u : 0u)};
+                                            values["gain"], values.count("pattern") > (i ? 1u : 0u), shared ? side : 1};
+            if (shared) {
+                const graph::ImageId parts = graph.image("multi_resolution.parts", {VK_FORMAT_R16G16_SFLOAT, view.visible.x, view.visible.y});
+                graph.pass(named("sample", level), programs.sampleShared).read(inputs.viewBlock).read(level.depth).read(level.normals).write(parts)
+                    .constants(constants).dispatch(view.visible.x, view.visible.y);
+                const graph::ImageId open = allOpen(graph, {view.visible.x, view.visible.y}, "multi_resolution.open");
+                level.obscurance.numbers = m_gather.add(graph, inputs, parts, side, open);
+                continue;
+            }
+            level.obscurance = obscurance(graph, "near", level, directed && i > 0);
             graph.pass(named("sample", level), programs.sample).read(inputs.viewBlock).read(level.depth).read(level.normals)
                 .write(level.obscurance.numbers).write(level.obscurance.directions).constants(constants).dispatch(uint32_t(level.area.x), uint32_t(level.area.y));
         }
@@ -150,7 +164,7 @@ public:
                 .read(coarse.obscurance.numbers).read(coarse.obscurance.directions).write(filtered.numbers).write(filtered.directions)
                 .constants(FilterConstants{coarse.origin, coarse.area, coarse.texel, perTolerance, planes})
                 .dispatch(uint32_t(coarse.area.x), uint32_t(coarse.area.y));
-            graph::Pass& upsample = graph.pass(named("upsample", fine), i ? programs.combine : programs.finish);
+            graph::Pass& upsample = graph.pass(named("upsample", fine), i ? programs.combine : side > 1 ? programs.finishGathered : programs.finish);
             upsample.read(inputs.viewBlock).read(fine.depth).read(fine.normals).read(fine.obscurance.numbers)
                 .read(coarse.depth).read(coarse.normals).read(filtered.numbers).read(filtered.directions);
             if (i) {
@@ -161,7 +175,8 @@ public:
                 visibility = graph.image("multi_resolution.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
                 upsample.write(visibility);
             }
-            upsample.constants(UpsampleConstants{fine.origin, fine.area, coarse.origin, coarse.area, fine.texel, perTolerance, planes})
+            upsample.constants(UpsampleConstants{fine.origin, fine.area, coarse.origin, coarse.area, fine.texel, perTolerance, planes,
+                                                 values.count("pattern") > 0 ? 16.0f : 36.0f})
                 .dispatch(uint32_t(fine.area.x), uint32_t(fine.area.y));
         }
         return visibility;
@@ -169,7 +184,7 @@ public:
 
 private:
     struct Programs {
-        gpu::Program sample, filter, combine, finish;
+        gpu::Program sample, filter, combine, finish, sampleShared, finishGathered;
     };
 
     static std::string named(const char* what, const Level& level) { return std::string("multi_resolution.") + what + " 1/" + std::to_string(int(level.texel)); }
@@ -192,6 +207,7 @@ private:
 
     gpu::Program m_downsample;
     Programs m_programs[2];  // [directed]
+    Gather m_gather;
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Temporal reprojection of visibility. The past lies where the motion vector leads; of its four pixels those count, bilinearly,
 // that lie in the plane of this pixel's surface as last frame's camera saw it and face the same way. The past is drawn into
 // the spread of the present around the pixel, which takes the trail of occluders that moved, and how far it had to be drawn
-// shortens its memory. Visibility is kept in 14 bits: in 8 or in a half, slow averages stand still a 1/255 off.
+// shortens its memory. What samples differently wherever a surface comes to lie in the picture has errors that are smooth in space and
+// change as it goes: a pixel that moves on the screen is allowed what it differed by, frame after frame, as well. One that
+// rests is not: there it would be a trail. Visibility is kept in 14 bits: in 8 or in a half, slow averages stand still a 1/255 off.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"
@@ -23,6 +25,12 @@ layout(push_constant) uniform Constants {
 } constants;
 
 const float kLongest = 63.0;  // frames that are counted
+const float kUnrest = 1.5;    // standard deviations in a mean change
+const float kUnrestFrames = 8.0;
+const float kUnrestUnit = 4.0 / 131072.0;  // 12 bits: up to an eighth
+
+// 12 bits of unrest in place of a depth's lowest.
+uint packDepth(float z, float unrest) { return (floatBitsToUint(z) & 0xfffff000u) | uint(min(unrest / kUnrestUnit + 0.5, 4095.0)); }
 
 // 14 bits of visibility, 6 of frames, 6 and 6 of the normal's octahedral map (3 degrees at worst).
 uint packPast(float value, float frames, uint normal) {
@@ -40,7 +48,7 @@ void main() {
     uint packedNormal = imageLoad(normals, p + guard).x;
     if (isSky(view, z)) {
         imageStore(result, p, vec4(now));
-        imageStore(pastNow, p, uvec4(floatBitsToUint(z), packPast(now, 0.0, packedNormal), 0, 0));
+        imageStore(pastNow, p, uvec4(packDepth(z, 0.0), packPast(now, 0.0, packedNormal), 0, 0));
         return;
     }
 
@@ -56,13 +64,13 @@ void main() {
     farthest *= moved;
 
     vec2 corner = floor(at), part = at - corner;
-    float sum = 0.0, gathered = 0.0, weights = 0.0;
+    float sum = 0.0, gathered = 0.0, unrest = 0.0, weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1), q = ivec2(corner) + step;
         bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThanEqual(q, last));
         ivec2 c = clamp(q, ivec2(0), last);
         uvec2 stored = imageLoad(past, c).xy;
-        float zq = uintBitsToFloat(stored.x);
+        float zq = uintBitsToFloat(stored.x & 0xfffff000u);
         float off = abs(dot(eyePosition(view, vec2(c + guard) + 0.5, zq), faced) - plane);
         vec3 m = fromOctahedron(vec2(stored.yy >> uvec2(20, 26) & 63u) * (2.0 / 63.0) - 1.0);
         bool same = inside && off <= farthest && dot(m, faced) >= leastCosine;
@@ -70,10 +78,13 @@ void main() {
         float w = same ? w2.x * w2.y : 0.0;
         sum += w * float(stored.y & 16383u);
         gathered += w * float(stored.y >> 14 & 63u);
+        unrest += w * float(stored.x & 0xfffu);
         weights += w;
     }
     bool known = constants.valid != 0u && weights > 0.01;
     float before = known ? sum / (weights * 16383.0) : now, frames = known ? gathered / weights : 0.0;
+    unrest = known ? unrest / weights * kUnrestUnit : 0.0;
+    float moves = clamp(2.0 * length(at - vec2(p)), 0.0, 1.0);  // fully from half a pixel a frame on
 
     // Noise is how far every other pixel around lies off a slope: next to each other, blurred ones differ less than from frame to frame,
     // and a slope is the edge of a shadow, which may move.
@@ -88,12 +99,14 @@ void main() {
         }
     mean /= 9.0;
     slope /= 12.0;  // from one of them to the next
-    float spread = constants.clip * sqrt(max(square / 9.0 - mean * mean - dot(slope, slope) * (2.0 / 3.0), 0.0)) + constants.clipFloor;
+    float noise = sqrt(max(square / 9.0 - mean * mean - dot(slope, slope) * (2.0 / 3.0), 0.0));
+    float spread = constants.clip * (noise + kUnrest * moves * unrest) + constants.clipFloor;
     float drawn = constants.clip > 0.0 ? clamp(before, mean - spread, mean + spread) : before;
     frames *= clamp(1.0 - abs(drawn - before) / max(spread, 1e-6), 0.0, 1.0);
 
     frames = min(frames + 1.0, kLongest);
     float value = mix(now, drawn, known ? min(1.0 - 1.0 / frames, constants.history) : 0.0);
     imageStore(result, p, vec4(value));
-    imageStore(pastNow, p, uvec4(floatBitsToUint(z), packPast(value, frames, packedNormal), 0, 0));
+    unrest += known ? (abs(now - before) - unrest) / min(frames, kUnrestFrames) : 0.0;
+    imageStore(pastNow, p, uvec4(packDepth(z, unrest), packPast(value, frames, packedNormal), 0, 0));
 }

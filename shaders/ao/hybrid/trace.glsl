@@ -4,6 +4,7 @@
 #ifndef OBSCURA_HYBRID_TRACE_GLSL
 #define OBSCURA_HYBRID_TRACE_GLSL
 #include "ao/common/map.glsl"
+#include "ao/common/tile.glsl"
 #include "shared/falloff.h"
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
@@ -14,9 +15,10 @@ layout(push_constant) uniform Constants {
     float offset;    // of their origin along the normal, cells
     float jitter;    // 1: steps are shifted for each ray; 0: half a step
     float grain;     // cells of the noise a metre
+    uint side;       // of the tile whose pixels share out the rays; 1: each traces all
 };
 
-const float kTwoPi = 6.28318531;
+const float kTwoPi = 6.28318531, kGolden = -2.39996323, kShift = 0.754877666;
 
 void main() {
     View view = viewBlock;
@@ -42,15 +44,17 @@ void main() {
 
     float step = rho.reach / float(stepCount), cellsPerStep = step / metres;
     float lift = offsetCells * metres;
-    // The azimuth turns by the golden angle from ray to ray.
-    vec2 turned = vec2(cos(kTwoPi * xi.y), sin(kTwoPi * xi.y));
-    const vec2 golden = vec2(-0.737368878, -0.675490294);
+    // The azimuth turns by the golden angle from ray to ray. Of those that are shared out, each pixel has every so many.
+    uint shares = side * side, share = side > 1u ? shareOf(view, p, side) : 0u;
+    float azimuth = kTwoPi * xi.y + kGolden * float(share);
+    vec2 turned = vec2(cos(azimuth), sin(azimuth));
+    vec2 onward = side > 1u ? vec2(cos(kGolden * float(shares)), sin(kGolden * float(shares))) : vec2(-0.737368878, -0.675490294);
     // An origin that lies in a set cell is beside another surface: which half of its rays that blocks, bits do not say, so each
     // counts half, and then goes on from where the cell ends.
     bool buried = occupied(volume, origin);
     float nearest = buried ? 1.0 / cellsPerStep : 0.0, half0 = buried ? 0.5 : 0.0;
-    float blocked = 0.0, total = 0.0, shift = xi.z;
-    for (uint i = 0u; i < rayCount; ++i) {
+    float blocked = 0.0, total = 0.0, shift = fract(xi.z + kShift * float(share)), shiftOnward = kShift * float(shares);
+    for (uint i = share; i < rayCount; i += shares) {
         float c = mix(coneCosine, 1.0, (float(i) + xi.x) / float(rayCount));
         float sine = sqrt(max(1.0 - c * c, 0.0));
         vec3 stride = (tangent * (turned.x * sine) + bitangent * (turned.y * sine) + normal * c) * cellsPerStep;
@@ -66,10 +70,13 @@ void main() {
         float far = hit >= 0.0 ? falloff(rho, hit * step + lift * c) : 0.0;
         blocked += c * mix(far, falloff(rho, lift * c), half0);
         total += c;
-        turned = vec2(turned.x * golden.x - turned.y * golden.y, turned.x * golden.y + turned.y * golden.x);
-        shift = fract(shift + 0.754877666);
+        turned = vec2(turned.x * onward.x - turned.y * onward.y, turned.x * onward.y + turned.y * onward.x);
+        shift = fract(shift + shiftOnward);
     }
-    imageStore(map, p, vec4(clamp(1.0 - blocked / total, 0.0, 1.0)));
+    // A share's rays have other cosines than the next one's: over what a share has in the mean, so that shares add up to the whole. Such
+    // a part may be below 0.
+    if (side > 1u) total = float(rayCount / shares) * mix(coneCosine, 1.0, (0.5 * float(rayCount - 1u) + xi.x) / float(rayCount));
+    imageStore(map, p, vec4(min(1.0 - blocked / total, 1.0)));
 }
 
 #endif

@@ -1,17 +1,4 @@
-// The finest level joined with all coarser ones, and their maximum and mean as one [Hoang and Low 2012, eq. 11]. As
-// combine.comp, but writes visibility, R16F, of the visible part.
+// The finest level, whose pixels took all samples, joined with the coarser ones; see finish.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "ao/multi_resolution/upsample.glsl"
-layout(set = 0, binding = 8, r16f) uniform writeonly image2D visibility;
-
-void main() {
-    View view = viewBlock;
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, area))) return;
-    float z = imageLoad(depth, origin + p).x;
-    Surface here = surfaceOf(view, vec2(origin + p) + 0.5, z, imageLoad(normals, origin + p).x);
-    Obscurance o = combined(view, p, here, unpackedOwn(imageLoad(near, p).x, here.n));
-    vec2 open = 1.0 - clamp(vec2(along(o.most, here.n), o.count > 0.0 ? along(o.sum, here.n) / o.count : 0.0), 0.0, 1.0);
-    imageStore(visibility, p, vec4(isSky(view, z) ? 1.0 : open.x * open.y));
-}
+#include "finish.glsl"

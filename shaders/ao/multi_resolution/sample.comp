@@ -1,85 +1,16 @@
-// Obscurance from the nearest texels of one level [Hoang and Low 2012, eq. 5-7]: the mean over samples of rho(|q-p|) times the
-// cosine between the normal and q-p. Samples below the surface or out of reach count as open, none is rejected.
-// Directed, a sample counts with the squared cosine, the share of a direction's hemisphere below its elevation [Dimitrov,
-// Horizon-Split Ambient Occlusion, eq. 6], one cosine as weight and one in the vector to it.
-// In: depth and packed normals of a level. Out: an Obscurance for an area of the level.
+// Samples of one level; see sample.glsl. Out: an Obscurance for an area of the level.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "ao/multi_resolution/levels.glsl"
-#include "shared/falloff.h"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
-layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
-layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+#include "sample.glsl"
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimage2D near;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D directions;
-layout(push_constant) uniform Constants {
-    FalloffBlock falloffBlock;
-    ivec2 size;        // of the level
-    ivec2 origin, area;
-    float texel;       // of the level, px
-    float reach;       // of samples over the falloff's projected reach
-    float maxRadius;   // texels
-    float gain;
-    uint disk;         // 16 points on a disk instead of every other texel of a square
-};
-
-// Poisson disk of four turned points. At the paper's radius of 5 all fall on texels' middles, no two closer than 2; opposite
-// ones leave a plane in balance.
-const vec2 kDisk[16] = vec2[](vec2(0.2, 0.2), vec2(-0.2, -0.2), vec2(-0.2, 0.2), vec2(0.2, -0.2),
-                              vec2(0.8, 0.0), vec2(-0.8, 0.0), vec2(0.0, 0.8), vec2(0.0, -0.8),
-                              vec2(0.8, 0.6), vec2(-0.8, -0.6), vec2(-0.6, 0.8), vec2(0.6, -0.8),
-                              vec2(0.6, -0.4), vec2(-0.6, 0.4), vec2(0.4, 0.6), vec2(-0.4, -0.6));
-
-struct Place {
-    Surface surface;
-    vec2 ray, step;    // eye-space xy a metre away: at the texel, and how much further one texel is
-    vec2 scale;        // of xy with depth: (1, 0), orthographic (0, 1)
-    ivec2 at;
-};
-
-void tap(Place p, FalloffBlock rho, ivec2 last, ivec2 offset, inout vec3 sum, inout float count) {
-    ivec2 at = p.at + offset, q = clamp(at, ivec2(0), last);
-    float z = imageLoad(depth, q).x;
-    vec3 v = vec3((p.ray + vec2(offset) * p.step) * (z * p.scale.x + p.scale.y), -z) - p.surface.position;
-    float square = dot(v, v), inverse = inversesqrt(max(square, 1e-20));
-    bool inside = at == q;
-    float cosine = max(dot(p.surface.n, v) * inverse, 0.0), w = inside ? cosine * falloff(rho, square * inverse) : 0.0;
-    sum += kDirected ? w * inverse * v : vec3(w, 0, 0);
-    count += inside ? 1.0 : 0.0;
-}
 
 void main() {
-    View view = viewBlock;  // copies, so that the loops hold them in registers
-    FalloffBlock rho = falloffBlock;
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = size - 1;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, area))) return;
-    Place place;
-    place.at = origin + p;
-    float z = imageLoad(depth, place.at).x;
-    place.scale = view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0);
-    place.step = texel * view.unproject.xy;
-    place.ray = (vec2(place.at) + 0.5) * place.step + view.unproject.zw;
-    place.surface = surfaceOf(view, (vec2(place.at) + 0.5) * texel, z, imageLoad(normals, place.at).x);
-
-    float radius = min(reach * rho.reach * view.pixelsPerMetre / ((z * place.scale.x + place.scale.y) * texel), maxRadius);
-    bool none = radius < 1.0 || isSky(view, z);
-    vec3 sum = vec3(0.0);
-    float count = 0.0;
-    if (disk != 0u) {
-        int points = none ? 0 : 16;
-        for (int i = 0; i < points; i += 2) {
-            tap(place, rho, last, ivec2(round(kDisk[i] * radius)), sum, count);
-            tap(place, rho, last, ivec2(round(kDisk[i + 1] * radius)), sum, count);
-        }
-    } else {
-        int side = none ? 0 : min(int(radius) + 1, 6);
-        float spacing = max(2.0, 0.4 * radius);
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) tap(place, rho, last, ivec2(round(vec2(x, y) * spacing - radius)), sum, count);
-    }
-    sum *= gain;
-    uvec2 result = packed(Obscurance(sum / max(count, 1.0), sum, count), place.surface.n);
+    float count;
+    vec3 n, sum = sampled(p, 0, 1, count, n);
+    uvec2 result = packed(Obscurance(sum / max(count, 1.0), sum, count), n);
     imageStore(near, p, uvec4(result.x));
     if (kDirected && texel > 1.0) imageStore(directions, p, uvec4(result.y));
 }

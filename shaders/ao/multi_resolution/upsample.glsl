@@ -5,7 +5,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+#ifdef GATHERED
+layout(set = 0, binding = 3, r16f) uniform readonly image2D near;  // visibility
+#else
 layout(set = 0, binding = 3, r32ui) uniform readonly uimage2D near;
+#endif
 layout(set = 0, binding = 4, r32f) uniform readonly image2D coarseDepth;
 layout(set = 0, binding = 5, r32ui) uniform readonly uimage2D coarseNormals;
 layout(set = 0, binding = 6, r32ui) uniform readonly uimage2D coarse;
@@ -16,7 +20,17 @@ layout(push_constant) uniform Constants {
     float texel;                     // of the level, px
     float perTolerance;              // 1 / metres
     uint planes;
+    float samples;                   // gathered: that a tile's pixels took together
 };
+
+#ifdef GATHERED
+Obscurance ownOf(ivec2 p, vec3 n) {
+    vec3 mean = (1.0 - imageLoad(near, p).x) * (kDirected ? n : vec3(1, 0, 0));
+    return Obscurance(mean, mean * samples, samples);
+}
+#else
+Obscurance ownOf(ivec2 p, vec3 n) { return unpackedOwn(imageLoad(near, p).x, n); }
+#endif
 
 Obscurance combined(View view, ivec2 p, Surface here, Obscurance own) {
     ivec2 at = origin + p, first = (at - 1) >> 1;  // of the four texels around

@@ -68,6 +68,11 @@ struct MethodInfo {
 List<const MethodInfo*> methods();
 const MethodInfo* findMethod(const char* id);  // null when there is none
 
+// What becomes of any method's samples before they are shown: "raw", as they are; "spatial", its own blur; "temporal", that and the shared
+// history. A few settings over a preset each; a method goes by those that it has parameters for. Static storage.
+List<Preset> resolvePresets();
+const Preset* findResolvePreset(const char* id);  // null when there is none
+
 // ---- How far occluders reach ----------------------------------------------------------------------------------------
 
 enum class FalloffKind : uint32_t { exponential, linear, quadratic, wendland, constant, ramp };
@@ -106,8 +111,9 @@ void destroy(Context* context);          // the caller has waited for the GPU; n
 // is; values out of range are clamped. Pipelines are made here, not in record().
 struct MethodSettings {
     const char* preset = "default";
-    List<Setting> settings;              // over the preset
+    List<Setting> settings;              // over the preset, and over `resolve`
     Falloff falloff;
+    const char* resolve = nullptr;       // of resolvePresets(), over the preset; null: as that says
 };
 Status setMethod(Context* context, const char* id, const MethodSettings& settings);
 

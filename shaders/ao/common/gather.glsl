@@ -1,0 +1,33 @@
+// Brings together what the pixels of a tile found [Timonen 2013, sec. 10]: the mean over the side x side pixels around that lie on this
+// pixel's surface. An even side has no middle: a pixel more, the outer ones counting half, keeps every share's weight and the picture
+// in place.
+// In: view, what the pixels show; visibility or, with kWeighted, (w obscurance, w), taken off `open`. Out: visibility.
+// The includer says which pixels and what they show: ivec2 pixels(view), float depth = surfaceAt(view, pixel, out here, out normal).
+#ifndef OBSCURA_GATHER_GLSL
+#define OBSCURA_GATHER_GLSL
+
+void main() {
+    View view = viewBlock;  // a copy, so that the loop holds it in registers
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = pixels(view) - 1;
+    if (any(greaterThan(p, last))) return;
+    int reach = int(side) / 2;
+    float outer = (side & 1u) != 0u ? 1.0 : 0.5;
+    vec3 here, n;
+    float z = surfaceAt(view, p, here, n);
+    vec2 sum = vec2(0.0);
+    for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+            ivec2 at = p + ivec2(x, y), q = clamp(at, ivec2(0), last);
+            vec3 there, m;
+            surfaceAt(view, q, there, m);
+            bool same = at == q && ofSurface(here, n, z, there, m);
+            float w = same || (x == 0 && y == 0) ? (abs(x) == reach ? outer : 1.0) * (abs(y) == reach ? outer : 1.0) : 0.0;
+            vec2 part = texelFetch(parts, q, 0).xy;
+            sum += w * (kWeighted ? part : vec2(part.x, 1.0));
+        }
+    }
+    float mean = sum.x / max(sum.y, 1e-6);
+    imageStore(visibility, p, vec4(clamp(kWeighted ? texelFetch(open, p, 0).x - mean : mean, 0.0, 1.0)));
+}
+
+#endif

@@ -1,0 +1,27 @@
+// Interleaving's gather over a map with fewer pixels than the picture (runtime/ao/upsample.h); see gather.glsl. Surfaces are those of
+// the map's receivers, each taken for the middle of the pixels it stands for.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/common/tile.glsl"
+#include "shared/octahedral.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kWeighted = false;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, rg32ui) uniform readonly uimage2D receivers;
+layout(set = 0, binding = 2) uniform sampler2D parts;
+layout(set = 0, binding = 3) uniform sampler2D open;
+layout(set = 0, binding = 4, r16f) uniform writeonly image2D visibility;
+layout(push_constant) uniform Constants {
+    uint side;
+    float scale;  // pixels a map's pixel, each way
+};
+
+ivec2 pixels(View view) { return imageSize(receivers); }
+float surfaceAt(View view, ivec2 p, out vec3 here, out vec3 n) {
+    uvec2 receiver = imageLoad(receivers, p).xy;
+    float z = uintBitsToFloat(receiver.x);
+    here = eyePosition(view, vec2(view.guard) + (vec2(p) + 0.5) * scale, z);
+    n = unpackNormal(receiver.y);
+    return z;
+}
+#include "gather.glsl"

@@ -1,0 +1,5 @@
+// The finest level, as the shared gather has it, joined with the coarser ones; see finish.glsl.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GATHERED
+#include "finish.glsl"
