@@ -139,6 +139,27 @@ TEST_F(DoorTest, motionIsScaledToPixelsAndACutForgets) {
     m_device.waitIdle();
 }
 
+// A resolve preset is what it sets, under the host's own settings.
+TEST_F(DoorTest, aResolvePresetStandsForItsSettings) {
+    const auto picture = [&](const char* resolve, std::initializer_list<Setting> list) {
+        MethodSettings settings;
+        settings.resolve = resolve;
+        settings.settings = {list.begin(), list.size()};
+        EXPECT_EQ(setMethod(m_context, "hbao", settings), Status::ok);
+        return pixels(once(frame()));
+    };
+    const std::vector<float> blurred = picture(nullptr, {}), raw = picture("raw", {});
+    EXPECT_NE(raw, blurred);
+    EXPECT_EQ(raw, picture(nullptr, {{"denoise", 0.0f}}));
+    EXPECT_EQ(picture("spatial", {}), blurred);
+    EXPECT_EQ(picture("raw", {{"denoise", 1.0f}}), blurred);
+    MethodSettings wrong;
+    wrong.resolve = "calm";
+    EXPECT_EQ(setMethod(m_context, "hbao", wrong), Status::invalid);
+    EXPECT_TRUE(said("there is no resolve preset 'calm'; there are raw, spatial, temporal"));
+    m_device.waitIdle();
+}
+
 // What the host's volume holds beside the picture counts; without one the method stands alone and a line says so.
 TEST_F(DoorTest, offScreenOccludersComeFromTheVolume) {
     const std::vector<float> alone = pixels(once(frame()));

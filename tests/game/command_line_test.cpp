@@ -31,6 +31,7 @@ TEST(CommandLine, BadOptionsEndInOneLine) {
         {{"--method", "hbaoo"}, {"--method hbaoo", "did you mean hbao?", "none"}},
         {{"--method"}, {"--method"}},
         {{"--preset", "lovely"}, {"--preset lovely", "default"}},
+        {{"--resolve", "spacial"}, {"--resolve spacial", "did you mean spatial?"}},
         {{"--set", "hbao.directons=4"}, {"directons", "did you mean directions?"}},
         {{"--set", "hbao.directions=many"}, {"many", "1 to 32"}},
         {{"--set", "hbao.directions=1000"}, {"1000", "1 to 32"}},
