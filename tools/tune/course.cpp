@@ -32,14 +32,14 @@ Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, con
 }
 
 Leg Course::fly(size_t leg, const evaluate::Candidate& candidate) {
-    const auto filter = flythrough::hasHistory(candidate) ? flythrough::Filter::temporal : flythrough::Filter::spatial;
+    const ao::Preset& filter = *ao::findResolvePreset(flythrough::hasHistory(candidate) ? "temporal" : "spatial");
     const flythrough::Summary summary = summarize(m_flights[leg]->measure(candidate, filter));
     return {summary.eA, summary.flickerOfError, summary.milliseconds};
 }
 
 std::string Course::keyOf(const evaluate::Candidate& candidate) const {
     scene::Hash hash;
-    for (const auto& flight : m_flights) hash.add(flight->keyOf(candidate, flythrough::Filter::spatial));
+    for (const auto& flight : m_flights) hash.add(flight->keyOf(candidate, *ao::findResolvePreset("spatial")));
     return hash.hex();
 }
 
