@@ -117,23 +117,26 @@ TEST_F(OffScreenTest, aTallBoxBesideThePictureObscuresAsIfItWereSeen) {
     for (const ao::MethodInfo* info : offered()) {
         m_method = info->id;
         const Picture alone = with(box, kOff), offscreen = with(box, kOffScreen), hidden = with(box, kHidden);
-        double missed[3] = {}, mean = 0.0, everywhere = 0.0;
+        // Errors of the picture, and of what voxels add to it: some methods find something on a bare floor already, which is not the voxels' doing.
+        double error[3] = {}, added[3] = {}, mean = 0.0;
         size_t count = 0;
         for (size_t i = 0; i < truth.size(); ++i) {
-            everywhere += std::abs(double(hidden[i]) - truth[i]);
             if (truth[i] < 0.03) continue;
             mean += truth[i];
-            missed[0] += std::abs(double(alone[i]) - truth[i]);
-            missed[1] += std::abs(double(offscreen[i]) - truth[i]);
-            missed[2] += std::abs(double(hidden[i]) - truth[i]);
+            const float seen[3] = {alone[i], offscreen[i], hidden[i]};
+            for (int what = 0; what < 3; ++what) {
+                error[what] += std::abs(double(seen[what]) - truth[i]);
+                added[what] += std::abs(double(seen[what]) - double(alone[i]) - truth[i]);
+            }
             ++count;
         }
         ASSERT_GT(count, 500u);
         const double n = double(count);
-        printf("%-17s %zu pixels miss the box, obscurance %.4f there; error alone %.4f, offscreen %.4f, hidden %.4f: %.1f times less; all pixels %.5f\n", info->id, count,
-               mean / n, missed[0] / n, missed[1] / n, missed[2] / n, missed[0] / missed[2], everywhere / double(truth.size()));
-        EXPECT_LT(missed[1], missed[0] / 8) << info->id;
-        EXPECT_LT(missed[2], missed[0] / 8) << info->id;
+        printf("%-18s %zu pixels miss the box, obscurance %.4f there; error alone %.4f, offscreen %.4f, hidden %.4f: %.1f times less; of what is added %.4f: %.1f times\n", info->id,
+               count, mean / n, error[0] / n, error[1] / n, error[2] / n, error[0] / error[2], added[2] / n, added[0] / added[2]);
+        EXPECT_LT(added[1], added[0] / 8) << info->id;
+        EXPECT_LT(added[2], added[0] / 8) << info->id;
+        if (!info->yardstick) { EXPECT_LT(error[2], error[0] / 8) << info->id; }
     }
 }
 
@@ -166,8 +169,8 @@ TEST_F(OffScreenTest, aPointOfTheFloorKeepsItsObscuranceWhileTheCameraYawsPastTh
             box.look((31.0 - 60.0 * (1.0 - step / 24.0)) * TallBox::kPi / 180);
             for (const float what : {kOff, kHidden}) whole[what == kHidden].add(obscurance(box, p, what));
         }
-        outside.add(obscurance(box, p, kHidden));
-        printf("%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; %.4f when all of it is outside\n", info->id, truth, whole[0].changes(),
+        outside.add(obscurance(box, p, kHidden) - obscurance(box, p, kOff));
+        printf("%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; voxels add %.4f when all of it is outside\n", info->id, truth, whole[0].changes(),
                whole[1].changes(), outside.most);
         EXPECT_NEAR(outside.most, truth, 0.02) << info->id;
         // Methods that see the box about right lose it without voxels; with them no more changes than their own noise.
