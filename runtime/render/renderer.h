@@ -48,7 +48,9 @@ struct VoxelSlice {
     std::optional<float> at;  // metres along it; none: where the camera is
 };
 
-// How depth layers are drawn, for methods that read them. `best`: in one pass where the device's fragment shaders may write, else peeled.
+// How depth layers are drawn, for methods that read them. `best`: thickness alone is peeled, one geometry pass; two surfaces go by the ladder
+// where the device's fragment shaders may write, else by three peels. On lavapipe, 640x360: one peel 42 ms against 77 in the atrium, 49 against
+// 100 in Sponza; three 130 against 77, 150 against 100. Other devices were not measured.
 enum class LayerForm : uint8_t { best, peeling, ladder };
 
 struct FrameOptions {

@@ -53,8 +53,9 @@ TEST_F(Scalable, theBlurStopsAtEdgesOfDepth) {
     const Room room = roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::box, {0, 0, -3}, {0.8f, 3, 0.05f}}});
     const Picture raw = run(room, values({{"denoise", 0}}), "quadratic:1"), blurred = run(room, values({}), "quadratic:1");
     for (uint32_t x = 0; x < room.visibleWidth(); ++x)
-        if (room.depth[size_t(40) * room.width + x + room.guard] < 3.5f && raw[size_t(20) * room.visibleWidth() + x] == 0.0f)
+        if (room.depth[size_t(40) * room.width + x + room.guard] < 3.5f && raw[size_t(20) * room.visibleWidth() + x] == 0.0f) {
             EXPECT_LT(blurred[size_t(20) * room.visibleWidth() + x], 0.05f) << x;
+        }
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST_F(Ssao, publishedPointsBesideAWall) {
     const std::vector<Row> rows = rowsBeforeWall(room, run(room, values({{"samples", 256}, {"bias", 0.04f}, {"denoise", 0}}), "linear:1"));
     ASSERT_GE(rows.size(), 3u);
     for (const Row& row : rows)
-        if (row.away > 0.3) EXPECT_NEAR(row.obscurance, beforeWall(row.away, false, beyond), 0.035) << row.away;
+        if (row.away > 0.3) { EXPECT_NEAR(row.obscurance, beforeWall(row.away, false, beyond), 0.035) << row.away; }
 }
 
 // What stands far in front of the wall does not darken it: the smoothstep.

@@ -177,8 +177,7 @@ private:
                 for (Cell& cell : m_cells) {
                     if (cell.candidate != &candidate || cell.falloff->text != falloff.text || cell.row.flicker) continue;
                     if (!found) {
-                        const ao::Preset& filter = *ao::findResolvePreset(flythrough::hasHistory(candidate) ? "temporal" : "spatial");
-                        const flythrough::Summary summary = summarize(flight.measure(candidate, filter));
+                        const flythrough::Summary summary = summarize(flight.measure(candidate, flythrough::ownFilter(candidate)));
                         found = Flicker{summary.flickerOfError, summary.referenceFlicker};
                     }
                     cell.row.flicker = found;

@@ -19,7 +19,7 @@ struct Options {
     std::filesystem::path out;
     std::filesystem::path from;              // results of an earlier run instead of measuring
     std::filesystem::path compare;           // results of an earlier run to be held against
-    std::filesystem::path table;             // a Markdown file with the markers of report.h
+    std::filesystem::path table;             // a Markdown file with the markers of tables.h
     double tolerance = 0.05;                 // by which times may grow beyond their noise
     bool absolute = false;                   // compare milliseconds as they are
     bool again = false;                      // measure what is there already, too

@@ -1,10 +1,9 @@
 // What is judged: a method with the values of one preset and the settings over them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
-
-#include <optional>
 
 #include "ao/method.h"
 #include "render/voxel_volume.h"

@@ -49,6 +49,7 @@ std::filesystem::path pictureFile(const std::filesystem::path& folder, uint32_t 
 }  // namespace
 
 bool hasHistory(const evaluate::Candidate& candidate) { return candidate.values.has("temporal") && candidate.values["temporal"] > 0.0f; }
+const ao::Preset& ownFilter(const evaluate::Candidate& candidate) { return *ao::findResolvePreset(hasHistory(candidate) ? "temporal" : "spatial"); }
 
 evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Preset& filter) {
     evaluate::Candidate result = candidate;

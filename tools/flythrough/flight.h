@@ -10,6 +10,7 @@
 namespace obscura::flythrough {
 
 bool hasHistory(const evaluate::Candidate& candidate);  // by its own values
+const ao::Preset& ownFilter(const evaluate::Candidate& candidate);  // "temporal" where it has, else "spatial"
 // The candidate resolved so (ao::resolvePresets()), but for a history that was asked for by name or that its preset has.
 evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Preset& filter);
 

@@ -32,8 +32,7 @@ Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, con
 }
 
 Leg Course::fly(size_t leg, const evaluate::Candidate& candidate) {
-    const ao::Preset& filter = *ao::findResolvePreset(flythrough::hasHistory(candidate) ? "temporal" : "spatial");
-    const flythrough::Summary summary = summarize(m_flights[leg]->measure(candidate, filter));
+    const flythrough::Summary summary = summarize(m_flights[leg]->measure(candidate, flythrough::ownFilter(candidate)));
     return {summary.eA, summary.flickerOfError, summary.milliseconds};
 }
 

@@ -34,7 +34,8 @@ struct FarFieldGrid {
     uint64_t bytes = 0;
     uint32_t lines = 0, intervals = 0;  // most of any direction
 };
-inline constexpr uint64_t kMostBytes = 1u << 28;
+inline constexpr uint64_t kMostBytes = 1u << 28;  // of the cells
+// size: px, guard band included; interval, lineStep: px; mostRows: of an image on the device.
 FarFieldGrid farFieldGrid(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging,
                            uint32_t mostRows);
 

@@ -21,6 +21,7 @@
 #include "ao/depth_mips.h"
 #include "ao/edge_blur.h"
 #include "ao/resolve.h"
+#include "ao/slices.h"
 
 namespace obscura::ao {
 namespace {
@@ -34,31 +35,25 @@ struct Constants {  // horizons.comp
 
 constexpr float kNearRange = 0.75f;  // of depth levels: what is so many reaches nearer than the farthest is left out
 
-enum Blur : uint32_t { kNone, kEdges, kSurface };
 const char* const kWeightings[] = {"horizon", "arcs"};
-const char* const kAxes[] = {"screen", "view ray"};
-const char* const kBlurs[] = {"none", "edges", "surface"};
 const Parameter kParameters[] = {
-    {"slices", "", 1, 32, 3, true, {}, "Slices of the hemisphere through the view ray; cost grows with slices x steps."},
-    {"steps", "", 1, 32, 3, true, {}, "Samples to each side of a slice, out to the falloff's reach."},
+    kSlices,
+    kSliceSteps,
     {"radius_scale", "", 0.3f, 3, 1.457f, false, {}, "How much longer the falloff is made, against what samples miss."},
     {"weighting", "", 0, 1, 0, true, {kWeightings, 2}, "How far samples count less: by mixing their horizon as published, or each for the arc that it newly covers."},
-    {"axis", "", 0, 1, 0, true, {kAxes, 2}, "Where slices lie evenly: on the screen as published, or around each pixel's view ray, which is right off the picture's centre."},
-    {"mip_offset", "", 0, 30, 3.3f, false, {}, "Samples farther than 2 to this, px, come from coarser depths: kinder to caches, softer."},
+    kSliceAxis,
+    kSliceMipOffset,
     {"power", "", 0.5f, 5, 2.2f, false, {}, "Visibility is raised to this."},
     {"floor", "", 0, 1, 0.03f, false, {}, "Least visibility."},
-    {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "5x5 over the noise: cut at edges of depth as published, or along the surface."},
+    kSliceDenoise,
 };
-const Setting kLow[] = {{"slices", 1}, {"steps", 2}};
-const Setting kMedium[] = {{"slices", 2}, {"steps", 2}};
-const Setting kUltra[] = {{"slices", 9}};
 const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"radius_scale", 1}, {"weighting", 1}, {"axis", 1}, {"power", 1.3f}, {"floor", 0}};
 const Preset kPresets[] = {
     {"default", "3 slices x 3 steps a side, XeGTAO's high.", {}},
-    {"low", "XeGTAO's low: 1 x 2.", {kLow, std::size(kLow)}},
-    {"medium", "XeGTAO's medium: 2 x 2.", {kMedium, std::size(kMedium)}},
+    {"low", "XeGTAO's low: 1 x 2.", {kSlicesLow, std::size(kSlicesLow)}},
+    {"medium", "XeGTAO's medium: 2 x 2.", {kSlicesMedium, std::size(kSlicesMedium)}},
     {"high", "XeGTAO's high: 3 x 3.", {}},
-    {"ultra", "XeGTAO's ultra: 9 x 3.", {kUltra, std::size(kUltra)}},
+    {"ultra", "XeGTAO's ultra: 9 x 3.", {kSlicesUltra, std::size(kSlicesUltra)}},
     {"tuned", "1 x 9, arcs that count one by one, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"gtao",
@@ -91,9 +86,9 @@ public:
         graph.pass("gtao.horizons", m_horizons[values.count("weighting")]).read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy)
             .constants(constants).dispatch(visible.x, visible.y);
 
-        const uint32_t blur = values.count("denoise");
-        const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == kEdges, "gtao.denoise");
-        return blur == kSurface ? m_denoise.add(graph, inputs, visibility, "gtao.blur") : visibility;
+        const auto blur = SliceBlur(values.count("denoise"));
+        const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == SliceBlur::edges, "gtao.denoise");
+        return blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "gtao.blur") : visibility;
     }
 
     Blocking blocking(const Inputs& inputs, const Values& values) const override { return {inputs.falloff.reach * values["radius_scale"], Blocking::kEndless}; }

@@ -54,6 +54,7 @@ struct UpsampleConstants {
     float samples;
 };
 
+constexpr float kDiskPoints = 16, kSquarePoints = 36;  // most that a pixel takes, sample.glsl
 const char* const kPatterns[] = {"squares", "disk at the finest", "disks"};
 enum : uint32_t { kMean, kDirected };
 const char* const kEstimates[] = {"mean cosine", "directed"};
@@ -176,7 +177,7 @@ public:
                 upsample.write(visibility);
             }
             upsample.constants(UpsampleConstants{fine.origin, fine.area, coarse.origin, coarse.area, fine.texel, perTolerance, planes,
-                                                 values.count("pattern") > 0 ? 16.0f : 36.0f})
+                                                 values.count("pattern") > 0 ? kDiskPoints : kSquarePoints})
                 .dispatch(uint32_t(fine.area.x), uint32_t(fine.area.y));
         }
         return visibility;

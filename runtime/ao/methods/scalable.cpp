@@ -5,7 +5,8 @@
 // Its falloff is its own, (1 - (d/r)^2)^3, of mean 16/35 r: r is chosen so that the mean is the shared falloff's. The mean of 2x2 pixels, then
 // two passes along rows and columns, two apart, blur what does not differ in depth.
 //
-// Differences: normals are the frame's, not differences of depth; levels are 5 of at most 6. `intensity`, `radius_scale` and the blur along the surface are what `tuned` goes further with.
+// Differences: normals are the frame's, not differences of depth; levels are 5 of at most 6. `intensity`, `radius_scale` and the blur along
+// the surface are what `tuned` goes further with.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: depths, spiral, blur twice.
 #include <iterator>

@@ -16,6 +16,7 @@
 #include "ao/depth_mips.h"
 #include "ao/edge_blur.h"
 #include "ao/resolve.h"
+#include "ao/slices.h"
 
 namespace obscura::ao {
 namespace {
@@ -27,29 +28,23 @@ struct Constants {  // sectors.comp
     uint32_t rayAxis;
 };
 
-enum Blur : uint32_t { kNone, kEdges, kSurface };
 const char* const kSectors[] = {"equal angle", "equal weight"};
-const char* const kAxes[] = {"screen", "view ray"};
-const char* const kBlurs[] = {"none", "edges", "surface"};
 const Parameter kParameters[] = {
-    {"slices", "", 1, 32, 3, true, {}, "Slices of the hemisphere through the view ray; cost grows with slices x steps."},
-    {"steps", "", 1, 32, 3, true, {}, "Samples to each side of a slice, out to the falloff's reach."},
+    kSlices,
+    kSliceSteps,
     {"thickness", "m", 0.001f, 1000, 0.25f, false, {}, "How thick everything is taken to be."},
     {"sectors", "", 0, 1, 0, true, {kSectors, 2}, "What the 32 sectors of a slice share out: its angle as published, or its cosine-weighted part of the hemisphere."},
-    {"axis", "", 0, 1, 0, true, {kAxes, 2}, "Where slices lie evenly: on the screen as published, or around each pixel's view ray, which is right off the picture's centre."},
-    {"mip_offset", "", 0, 30, 3.3f, false, {}, "Samples farther than 2 to this, px, come from coarser depths: kinder to caches, softer."},
-    {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "5x5 over the noise: cut at edges of depth as published, or along the surface."},
+    kSliceAxis,
+    kSliceMipOffset,
+    kSliceDenoise,
 };
-const Setting kLow[] = {{"slices", 1}, {"steps", 2}};
-const Setting kMedium[] = {{"slices", 2}, {"steps", 2}};
-const Setting kUltra[] = {{"slices", 9}};
 const Setting kFilament[] = {{"slices", 4}, {"thickness", 0.5f}};
-const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"thickness", 0.5f}, {"sectors", 1}, {"axis", 1}, {"denoise", kSurface}};
+const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"thickness", 0.5f}, {"sectors", 1}, {"axis", 1}, {"denoise", float(SliceBlur::surface)}};
 const Preset kPresets[] = {
     {"default", "3 slices x 3 steps a side, surfaces 0.25 m thick: Bevy's high.", {}},
-    {"low", "Bevy's low: 1 x 2.", {kLow, std::size(kLow)}},
-    {"medium", "Bevy's medium: 2 x 2.", {kMedium, std::size(kMedium)}},
-    {"ultra", "Bevy's ultra: 9 x 3.", {kUltra, std::size(kUltra)}},
+    {"low", "Bevy's low: 1 x 2.", {kSlicesLow, std::size(kSlicesLow)}},
+    {"medium", "Bevy's medium: 2 x 2.", {kSlicesMedium, std::size(kSlicesMedium)}},
+    {"ultra", "Bevy's ultra: 9 x 3.", {kSlicesUltra, std::size(kSlicesUltra)}},
     {"filament", "Filament's thickness: 4 x 3, 0.5 m.", {kFilament, std::size(kFilament)}},
     {"tuned", "1 x 9, half a metre, sectors of equal weight, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
@@ -82,9 +77,9 @@ public:
         graph.pass("visibility_bitmask.sectors", m_sectors[values.count("sectors")]).read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy)
             .constants(constants).dispatch(visible.x, visible.y);
 
-        const uint32_t blur = values.count("denoise");
-        const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == kEdges, "visibility_bitmask.denoise");
-        return blur == kSurface ? m_denoise.add(graph, inputs, visibility, "visibility_bitmask.blur") : visibility;
+        const auto blur = SliceBlur(values.count("denoise"));
+        const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == SliceBlur::edges, "visibility_bitmask.denoise");
+        return blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "visibility_bitmask.blur") : visibility;
     }
 
     // What passes behind a sample at more than its thickness has not been counted.

@@ -6,8 +6,9 @@
 // blocked from d on counts by 1 - (d/r)^3, a falloff of mean 3/4 r (the touching ball 1 - 4 (d/r)^3 + 3 (d/r)^4 and 0.6, r its
 // diameter): r is chosen so that the mean is the shared falloff's.
 //
-// Difference: lines are the view rays of texels, which widen, not parallels of the camera's axis: planes are open under perspective. `solid` touching ball [Szirmay-Kalos 2010, Volumetric Ambient Occlusion] weighs directions by about their cosine, and
-// `thickness` lets light pass behind things; both go further and are off by default.
+// Difference: lines are the view rays of texels, which widen, not parallels of the camera's axis: planes are open under perspective. `solid`
+// touching ball [Szirmay-Kalos 2010, Volumetric Ambient Occlusion] weighs directions by about their cosine, and `thickness` lets light pass
+// behind things; both go further and are off by default.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: lines, blur.
 #include <iterator>

@@ -3,6 +3,7 @@
 // Out: visibility and edges, see ao/common/edges.glsl.
 #ifndef OBSCURA_SLICE_GLSL
 #define OBSCURA_SLICE_GLSL
+#include "ao/common/arcs.glsl"
 #include "ao/common/depth_mips.glsl"
 #include "ao/common/edges.glsl"
 #include "ao/common/hilbert.glsl"
@@ -14,7 +15,6 @@ layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 2, r32f) uniform readonly image2D depths;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimage2D noisy;
 
-const float kPi = 3.14159265;
 const float kTooClose = 1.3;  // px: nearer samples tell nothing
 
 struct Receiver {
@@ -69,12 +69,6 @@ vec3 towards(View view, Receiver r, vec2 at, int level) {
     return eyePosition(view, at, imageLoad(depths, mipTexel(r.padded, clamp(ivec2(at), ivec2(0), r.last), level)).x) - r.here;
 }
 
-// acos x to 7e-5 [Abramowitz, Stegun 1964, 4.4.45].
-float arcCosine(float x) {
-    float a = min(abs(x), 1.0);
-    float positive = sqrt(1.0 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - 0.0187293 * a)));
-    return x >= 0.0 ? positive : kPi - positive;
-}
 // Twice the cosine-weighted integral from the view ray to the angle of cosine c on a side of a slice, where nv and no are the
 // normal's parts along the ray and towards the side: nv (1 - c^2) + no (acos c - c sqrt(1 - c^2)).
 float sliceArc(float nv, float no, float c) {

@@ -5,12 +5,13 @@
 #include "shared/view.h"
 
 uint bayer(uvec2 p) { return ((p.x ^ p.y) & 1u) << 1 | (p.y & 1u); }
+uint bayer16(uvec2 p) { return 4u * bayer(p) + bayer(p >> 1); }  // 0 to 15 over 4x4
 
 // Which of the side^2 shares is this pixel's. Bayer's order in 2x2 and 4x4: half a tile holds every other direction. Where a history
 // averages over frames, shares go around.
 uint shareOf(View view, ivec2 pixel, uint side) {
     uvec2 p = uvec2(pixel);
-    uint rank = side == 3u ? p.x % 3u + 3u * (p.y % 3u) : side == 2u ? bayer(p) : 4u * bayer(p) + bayer(p >> 1);
+    uint rank = side == 3u ? p.x % 3u + 3u * (p.y % 3u) : side == 2u ? bayer(p) : bayer16(p);
     return view.temporal != 0u ? (rank + 5u * view.frame) % (side * side) : rank;
 }
 

@@ -26,7 +26,7 @@ struct Horizon {
     float follows;  // connection once there is such a point
     float blocked;  // what was gained, times |n_k|
 };
-Horizon horizonAt(float cosine) { return Horizon(cosine * abs(cosine), acosOf(cosine), vec2(0.0), 0.0, 0.0); }
+Horizon horizonAt(float cosine) { return Horizon(cosine * abs(cosine), arcCosine(cosine), vec2(0.0), 0.0, 0.0); }
 
 // Whether a point in direction `to` (any length) from the receiver raises the horizon. Four points in five do not, and they are told by this
 // alone: walkers search for the next that does, then raise(). What lies beyond the zenith (u < 0) belongs to other sectors.
@@ -40,7 +40,7 @@ void raise(inout Horizon h, vec2 point, vec2 slab, bool found, vec2 n, float con
     float longer = sqrt(max(dot(slab, slab), 1e-30) / max(dot(before, before), 1e-30));
     vec2 line = slab * (1.0 - h.follows) + before * (h.follows * longer);  // the mean of two directions, as long as the slab or shorter
     float inverse2 = 1.0 / max(dot(line, line), 1e-30), area = max(line.x * point.y - line.y * point.x, 0.0);
-    float phi2 = atanOf(area, dot(line, point)), angle = atanOf(point.x, point.y), phi1 = max(phi2 - (h.angle - angle), 0.0);
+    float phi2 = arcTangent(area, dot(line, point)), angle = arcTangent(point.x, point.y), phi1 = max(phi2 - (h.angle - angle), 0.0);
     float b = area * sqrt(inverse2);
     vec3 a = tableDifference(min(phi1, phi2), phi2, b / (b + unit));
     vec2 twice = vec2(2.0 * line.x * line.y, line.y * line.y - line.x * line.x) * inverse2;  // sin 2c, cos 2c

@@ -1,21 +1,9 @@
 // Obscurance: every sector of a pixel, near and far [Timonen 2013, alg. 2].
 // In: linear depth, packed normals, directions, cells, the falloff's table. Out: visibility.
-#include "ao/far_field/layout.h"
-#include "shared/octahedral.glsl"
-#include "shared/view.h"
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 1) const uint kThin = 0;
-layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
-layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
-layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
-layout(set = 0, binding = 3, std430) readonly buffer Directions { Direction directionsOf[]; };
-#define CELLS_BINDING 4
-#define CELLS_ACCESS readonly
-#include "ao/far_field/cells.glsl"
-layout(set = 0, binding = 5, rgba32ui) uniform readonly uimage2D table;
-layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants { FarFieldConstants constants; };
 #include "ao/far_field/sectors.glsl"
+layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
+layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers

@@ -51,7 +51,7 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     s.n = vec2((dot(r.n.xy, e) - ez * r.nz) * inverse, r.nz);
     s.start = -s.n.x * inversesqrt(max(dot(s.n, s.n), 1e-20));
     // Azimuths differ by the angle between the projections of the segment's two sides onto the plane across the zenith.
-    s.weight = atanOf(2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
+    s.weight = arcTangent(2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
     vec2 room = mix(r.pixel, r.size - r.pixel, greaterThan(along, vec2(0.0))) / max(abs(along), vec2(1e-6));
     s.exit = min(room.x, room.y) / stretch;
     s.scale = r.scale;

@@ -1,7 +1,19 @@
-// One segment of a sector: the near field, texel by texel, then intervals of growing length to the picture's edge. Include after declaring
-// `table`, `depth`, `cells` and `directionsOf`, kAveraging and kThin.
+// One segment of a sector: the near field, texel by texel, then intervals of growing length to the picture's edge; and the bindings of the
+// passes that walk them, but for their receivers (2) and results (6). Include after declaring kThin.
 #ifndef OBSCURA_FAR_FIELD_SECTORS_GLSL
 #define OBSCURA_FAR_FIELD_SECTORS_GLSL
+#include "ao/far_field/layout.h"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 3, std430) readonly buffer Directions { Direction directionsOf[]; };
+#define CELLS_BINDING 4
+#define CELLS_ACCESS readonly
+#include "ao/far_field/cells.glsl"
+layout(set = 0, binding = 5, rgba32ui) uniform readonly uimage2D table;
+layout(push_constant) uniform Constants { FarFieldConstants constants; };
 #include "ao/far_field/estimator.glsl"
 #include "ao/far_field/grid.glsl"
 #include "ao/far_field/receiver.glsl"
@@ -116,7 +128,8 @@ Found farPoint(Met met, Segment s, Receiver r, Place at, FarFieldConstants c, in
 vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth) {
     Place at = placeOf(directionsOf[k], r, c);
     vec2 sum = vec2(0.0), along = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * at.d.along;
-    float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments), taps = float(c.taps), nearest = (float(at.first) * c.interval - at.along) / max(taps * sqrt(taps), 1.0);
+    float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments), taps = float(c.taps);
+    float nearest = (float(at.first) * c.interval - at.along) / max(taps * sqrt(taps), 1.0);
     for (uint segment = 0u; segment < c.segments; ++segment) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
         Met met = Met(horizonAt(s.start), binsBelow(s.start));

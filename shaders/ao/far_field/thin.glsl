@@ -11,9 +11,9 @@ struct Bins {
     float step;    // angle of a bin; bin i is centred at (i + 0.5) step from the zenith
     float sum;     // what was gained, times |n_k|
 };
-Bins binsBelow(float cosine) { return Bins(0u, acosOf(cosine) / 32.0, 0.0); }
+Bins binsBelow(float cosine) { return Bins(0u, arcCosine(cosine) / 32.0, 0.0); }
 
-float angleOf(vec2 v) { return acosOf(v.y * inversesqrt(max(dot(v, v), 1e-30))); }
+float angleOf(vec2 v) { return arcCosine(v.y * inversesqrt(max(dot(v, v), 1e-30))); }
 
 // `point` from the receiver, `slab` unit, away from the camera; it ends after `thickness` metres.
 void addSlab(inout Bins h, vec2 point, vec2 slab, float thickness, bool exists, vec2 n, float unit) {

@@ -29,7 +29,7 @@ const float kNextStep = 0.61803399;  // slices do not sample in one rhythm
 // Which of the tile's slices and steps are a pixel's, in [0,1). Any 4x4 pixels hold 16 once, any 2x2 of them a quarter each: a hash
 // instead has three times the error after the gather.
 vec2 tileNoise(uvec2 p, uint side) {
-    uint nine = p.x % 3u + 3u * (p.y % 3u), sixteen = 4u * bayer(p) + bayer(p >> 1);
+    uint nine = p.x % 3u + 3u * (p.y % 3u), sixteen = bayer16(p);
     vec2 ranks = side == 3u ? vec2(nine, nine % 3u * 3u + nine / 3u) : vec2(sixteen, bitfieldReverse(sixteen) >> 28);
     return (ranks + 0.5) / (side == 3u ? 9.0 : 16.0);
 }

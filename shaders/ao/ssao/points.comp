@@ -2,6 +2,7 @@
 // In: linear depth, packed normals (guard band included), the kernel. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/tile.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,8 +17,6 @@ layout(push_constant) uniform Constants {
     float bias;    // metres that the depth buffer must be nearer
 };
 
-const float kTurn[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);  // of the kernel, over a 4x4 tile
-
 void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
     float range = radius, least = bias;
@@ -31,7 +30,7 @@ void main() {
     }
     vec3 here = eyePosition(view, vec2(texel) + 0.5, z), n = unpackNormal(imageLoad(normals, texel).x);
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
-    float angle = 6.28318531 * fract((kTurn[(texel.y & 3) * 4 + (texel.x & 3)] + 0.5) / 16.0 + frameShift(view).x);
+    float angle = 6.28318531 * fract((float(bayer16(uvec2(texel))) + 0.5) / 16.0 + frameShift(view).x);
     vec3 turned = vec3(cos(angle), sin(angle), 1e-3), t = normalize(turned - n * dot(turned, n)), b = cross(n, t);
     float blocked = 0.0;
     for (uint i = 0u; i < samples; ++i) {

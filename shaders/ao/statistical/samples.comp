@@ -3,6 +3,7 @@
 // In: linear depth, packed normals. Out: visibility, R16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/tile.glsl"
 #include "ao/statistical/fixed_point.h"
 #include "ao/statistical/window.glsl"
 #include "shared/octahedral.glsl"
@@ -14,7 +15,6 @@ layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Constants { Box boxBlock; float slope, gain; uint samples, lines; };
 
 const vec2 kNext = vec2(0.7548776662, 0.5698402910);  // successive multiples fill the square evenly
-const float kTile[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
 
 void main() {
     View view = viewBlock;
@@ -33,7 +33,7 @@ void main() {
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     float reach = halfWindow(view, box, z), height = boxHeight(view, box, z), blocked = 0.0, count = 0.0;
     // Few lines differ from pixel to pixel over a 4x4 tile, for a blur to gather; many points need no such thing.
-    float shift = lines != 0u ? kTile[(texel.y & 3) * 4 + (texel.x & 3)] * float(samples) : 0.0;
+    float shift = lines != 0u ? float(bayer16(uvec2(texel))) * float(samples) : 0.0;
     for (uint i = 0u; i < samples; ++i) {
         vec2 at = pixel + (2.0 * fract(0.5 + (float(i) + shift) * kNext) - 1.0) * reach;
         ivec2 q = clamp(ivec2(at), ivec2(0), ivec2(view.size) - 1);

@@ -2,6 +2,7 @@
 // runtime/ao/methods/volumetric.cpp. In: linear depth, packed normals, guard band included. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/tile.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,8 +16,6 @@ layout(push_constant) uniform Constants {
     float thickness;  // metres, of what the depth buffer shows
     uint solid;       // 0: the ball around the pixel, 1: its half above the tangent plane, 2: the ball that touches that plane there
 };
-
-const float kTurn[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);  // of the lines, over a 4x4 tile
 
 // Along a ray, of what a texel covers, from the centre's depth on: rays widen by `widens` a metre (not for
 // the whole ball: its halves would differ).
@@ -44,7 +43,7 @@ void main() {
     float scale = view.pixelsPerMetre / (orthographic ? 1.0 : max(-centre.z, 0.05 * z)) * r;  // px of the radius
     vec2 middle = solid == 2u ? pixelOf(view, vec3(centre.xy, min(centre.z, -0.05 * z))) : vec2(texel) + 0.5;
     float widens = orthographic || solid == 0u ? 0.0 : 1.0 / max(depthOf, 0.05 * z);
-    float turn = 6.28318531 * fract((kTurn[(texel.y & 3) * 4 + (texel.x & 3)] + 0.5) / 16.0 + frameShift(view).x);
+    float turn = 6.28318531 * fract((float(bayer16(uvec2(texel))) + 0.5) / 16.0 + frameShift(view).x);
     float whole = 0.0, occupied = 0.0;
     for (uint i = 0u; i < lines; ++i) {
         float angle = turn + 2.39996323 * float(i);
