@@ -1,5 +1,7 @@
 // The host's door: adopts a device, imports a frame's images into a graph of its own, runs the same passes as the sample.
+#include <cstdio>
 #include <cstring>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -7,12 +9,26 @@
 
 namespace obscura::ao {
 
+// Where lines go, also when there is no memory left to write one with.
+struct HostLog {
+    void (*log)(void* user, Severity severity, const char* line) = nullptr;
+    void* user = nullptr;
+    void operator()(const char* line) const {
+        if (log) log(user, Severity::error, line);
+        else std::fprintf(stderr, "%s\n", line);
+    }
+};
+
 struct Context {
+    HostLog log;
+    VisibilityFormat format = VisibilityFormat::r16f;
     std::unique_ptr<gpu::Device> device;
     gpu::ShaderLibrary shaders;
     std::unique_ptr<graph::Graph> graph;
     std::unique_ptr<Library> library;
+    gpu::Program narrow;              // r16f to r8, where that is asked for
     std::vector<gpu::Image> outputs;  // a ring, so that the host may still read last frame's
+    uint64_t methodBytes = 0;         // device memory that methods took when they were made
     std::optional<Values> values;
     Falloff falloff;
     std::vector<std::string> timedNames;
@@ -32,7 +48,21 @@ Status statusOf(gpu::Status status) {
     }
 }
 
-void say(Context& context, const std::string& line) { context.device->log(gpu::Severity::error, "obscura: " + line); }
+void say(const Context& context, const std::string& line) { context.log(("obscura: " + line).c_str()); }
+
+// No exception crosses the door. Nothing here throws but the standard library, for want of memory.
+template <class Work>
+Status guarded(const HostLog& log, Work work) noexcept {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        log("obscura: out of host memory");
+        return Status::outOfMemory;
+    } catch (...) {
+        log("obscura: an exception that nothing here throws; did a callback?");
+        return Status::invalid;
+    }
+}
 
 // Null image, view or layout with a format, or the other way round, is a mistake worth naming.
 bool complete(const ImageView& v) { return v.image && v.view && v.format != VK_FORMAT_UNDEFINED && v.layout != VK_IMAGE_LAYOUT_UNDEFINED; }
@@ -47,28 +77,90 @@ graph::ImageId importView(graph::Graph& graph, const char* name, const ImageView
     return graph.import(name, external);
 }
 
+// What a frame brings. In a rehearsal the images need not be there yet: one with a format counts.
+struct Given {
+    bool rehearsal = false, normals = false, motion = false, thickness = false, second = false;
+};
+
+Given givenBy(const Frame& frame, bool rehearsal) {
+    const auto is = [&](const ImageView& v) { return rehearsal ? v.format != VK_FORMAT_UNDEFINED : v.image || v.view; };
+    return {rehearsal, is(frame.normals), is(frame.motion), is(frame.layers.thickness), is(frame.layers.second)};
+}
+
+// Whether the frame can be recorded; a line that names the field if not.
+bool sensible(const Context& context, const Frame& frame, const Given& given, shared::View& view) {
+    const DepthLayers& layers = frame.layers;
+    const struct { const char* name; bool given; const ImageView& view; } images[] = {{"depth", true, frame.depth}, {"normals", given.normals, frame.normals},
+        {"motion", given.motion, frame.motion}, {"layers.thickness", given.thickness, layers.thickness}, {"layers.second", given.second, layers.second}};
+    for (const auto& image : images)
+        if (image.given && !given.rehearsal && !complete(image.view))
+            return say(context, std::string("Frame::") + image.name + " lacks its image, view, format or layout"), false;
+    if (given.second && !given.thickness) return say(context, "Frame::layers.second is of no use without Frame::layers.thickness"), false;
+    const auto isSize = [&](uint32_t side) {
+        return layers.secondSize.width == (frame.size.width + side - 1) / side && layers.secondSize.height == (frame.size.height + side - 1) / side;
+    };
+    if (given.second && !isSize(1) && !isSize(2)) return say(context, "Frame::layers.secondSize is neither Frame::size nor half of it"), false;
+    const char* reason = nullptr;
+    if (viewOf(frame, view, reason) != Status::ok) return say(context, reason), false;
+    shared::Volume volume;
+    if (frame.volume.buffer && volumeOf(frame.volume, volume, reason) != Status::ok) return say(context, reason), false;
+    return true;
+}
+
+graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame, const Given& given) {
+    Sources sources;
+    sources.depth = importView(graph, "depth", frame.depth, frame.size);
+    if (given.normals) sources.normals = importView(graph, "normals", frame.normals, frame.size);
+    if (given.motion) sources.motion = importView(graph, "motion", frame.motion, frame.size);
+    if (given.thickness) sources.layers.thickness = importView(graph, "thickness", frame.layers.thickness, frame.size);
+    if (given.second) sources.layers.second = importView(graph, "second layer", frame.layers.second, frame.layers.secondSize);
+    if (const Volume& v = frame.volume; v.buffer)
+        sources.volume = graph.import("volume bits", {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});
+    return context.library->add(graph, frame, sources, context.falloff, *context.values);
+}
+
+gpu::ImageDesc outputDesc(const Context& context, VkExtent2D size) {
+    const bool narrow = context.format == VisibilityFormat::r8;
+    const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    return {narrow ? VK_FORMAT_R8_UNORM : VK_FORMAT_R16_SFLOAT, size.width, size.height, 1, 1, narrow ? usage | VK_IMAGE_USAGE_STORAGE_BIT : usage};
+}
+
 gpu::Status nextOutput(Context& context, VkExtent2D size, const gpu::Image*& out) {
-    context.outputs.resize(context.device->framesInFlight() + 1);
     gpu::Image& image = context.outputs[context.device->frame() % context.outputs.size()];
-    const gpu::ImageDesc desc{VK_FORMAT_R16_SFLOAT, size.width, size.height, 1, 1,
-                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+    const gpu::ImageDesc desc = outputDesc(context, size);
     out = &image;
     return image && image.desc() == desc ? gpu::Status::ok : gpu::Image::create(*context.device, desc, "obscura output", image);
 }
 
-}  // namespace
+// The one place where every method's visibility becomes what the host reads.
+void deliver(Context& context, graph::Graph& graph, graph::ImageId visibility, const gpu::Image& target) {
+    graph::External external;
+    external.image = target.handle();
+    external.view = target.view();
+    external.desc = target.desc();
+    external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const graph::ImageId result = graph.import("output", external);
+    const VkExtent3D size{target.desc().width, target.desc().height, 1};
+    if (context.format == VisibilityFormat::r8) {
+        graph.pass("output", context.narrow).read(visibility).write(result).dispatch(size.width, size.height);
+        return;
+    }
+    graph.pass("output").use(visibility, graph::Access::transferRead).use(result, graph::Access::transferWrite, true)
+        .record([visibility, result, size](const graph::PassContext& c) {
+            const VkImageCopy region{{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, size};
+            c.device.vk().CmdCopyImage(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(result),
+                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        });
+}
 
-Status create(const DeviceDesc& desc, Context** context) {
-    if (!context) return Status::invalid;
-    *context = nullptr;
-    const auto refuse = [&](const char* field) {
-        if (desc.log) desc.log(desc.logUser, Severity::error, (std::string("obscura: DeviceDesc::") + field + " is null").c_str());
-        return Status::invalid;
-    };
-    if (!desc.instance) return refuse("instance");
-    if (!desc.physicalDevice) return refuse("physicalDevice");
-    if (!desc.device) return refuse("device");
-    if (!desc.getInstanceProcAddr) return refuse("getInstanceProcAddr");
+Status make(const DeviceDesc& desc, const HostLog& log, Context** context) {
+    const auto refuse = [&](const char* text) { return log((std::string("obscura: DeviceDesc::") + text).c_str()), Status::invalid; };
+    if (!desc.instance) return refuse("instance is null");
+    if (!desc.physicalDevice) return refuse("physicalDevice is null");
+    if (!desc.device) return refuse("device is null");
+    if (!desc.getInstanceProcAddr) return refuse("getInstanceProcAddr is null");
+    if (!desc.memory.allocate != !desc.memory.free) return refuse("memory has one of its two functions alone");
+    if (desc.format != VisibilityFormat::r16f && desc.format != VisibilityFormat::r8) return refuse("format is none there is");
 
     gpu::AdoptedDevice adopted;
     adopted.instance = desc.instance;
@@ -78,32 +170,37 @@ Status create(const DeviceDesc& desc, Context** context) {
     adopted.getInstanceProcAddr = desc.getInstanceProcAddr;
     adopted.framesInFlight = desc.framesInFlight ? desc.framesInFlight : 1;
     adopted.allocator = desc.allocator;
+    if (const MemoryCallbacks memory = desc.memory; memory.allocate) {
+        adopted.memory.allocate = [memory](const VkMemoryRequirements& needs, bool mapped, bool image, gpu::MemoryBlock& block) {
+            MemoryBlock given;
+            const VkResult result = memory.allocate(memory.user, needs, mapped, image, given);
+            block = {given.memory, given.offset, needs.size, static_cast<std::byte*>(given.mapped), given.token};
+            return result;
+        };
+        adopted.memory.free = [memory](const gpu::MemoryBlock& block) { memory.free(memory.user, {block.memory, block.offset, block.mapped, block.token}); };
+    }
     if (desc.log)
         adopted.log = [log = desc.log, user = desc.logUser](gpu::Severity severity, const char* line) { log(user, Severity(severity), line); };
     std::string error;
-    auto made = std::make_unique<Context>();
+    struct Destroy { void operator()(Context* made) const { destroy(made); } };
+    std::unique_ptr<Context, Destroy> made(new Context);
+    made->log = log;
+    made->format = desc.format;
     made->device = gpu::Device::adopt(adopted, error);
-    if (!made->device) {
-        if (desc.log) desc.log(desc.logUser, Severity::error, ("obscura: " + error).c_str());
-        return Status::unsupported;
-    }
+    if (!made->device) return log(("obscura: " + error).c_str()), Status::unsupported;
+    made->outputs.resize(made->device->framesInFlight() + 1);
     made->shaders.add(shaders());
     made->graph = std::make_unique<graph::Graph>(*made->device);
     made->library = std::make_unique<Library>(*made->device, made->shaders);
-    *context = made.release();
-    return setMethod(*context, methods()[methods().size() > 1 ? 1 : 0]->id, {});
+    if (desc.format == VisibilityFormat::r8)
+        if (const gpu::Status status = gpu::Program::compute(*made->device, made->shaders, "ao/common/output_r8.comp", {}, made->narrow); status != gpu::Status::ok)
+            return statusOf(status);
+    const Status status = setMethod(made.get(), "hbao", {});
+    if (status == Status::ok) *context = made.release();
+    return status;
 }
 
-void destroy(Context* context) {
-    if (!context) return;
-    context->outputs.clear();
-    context->library.reset();
-    context->graph.reset();
-    delete context;
-}
-
-Status setMethod(Context* context, const char* id, const MethodSettings& settings) {
-    if (!context) return Status::invalid;
+Status choose(Context* context, const char* id, const MethodSettings& settings) {
     const MethodInfo* info = findMethod(id);
     if (!info) {
         std::string known;
@@ -143,87 +240,96 @@ Status setMethod(Context* context, const char* id, const MethodSettings& setting
         say(*context, "MethodSettings::falloff needs a length above zero (and, for ramp, an end above it)");
         return Status::invalid;
     }
+    const uint64_t before = context->device->memoryUse();
     if (!context->library->prepare(*info)) return Status::shaderError;
+    context->methodBytes += context->device->memoryUse() - before;
     context->values = std::move(values);
     context->falloff = settings.falloff;
     return Status::ok;
 }
 
-Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) {
+}  // namespace
+
+Status create(const DeviceDesc& desc, Context** context) noexcept {
+    const HostLog log{desc.log, desc.logUser};
+    if (!context) return log("obscura: create() was given no place for the context"), Status::invalid;
+    *context = nullptr;
+    return guarded(log, [&] { return make(desc, log, context); });
+}
+
+void destroy(Context* context) noexcept {
+    if (!context) return;
+    context->outputs.clear();
+    context->narrow = {};
+    context->library.reset();
+    context->graph.reset();
+    delete context;
+}
+
+Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept {
+    return context ? guarded(context->log, [&] { return choose(context, id, settings); }) : Status::invalid;
+}
+
+Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept {
     Output output;
     if (!context) return output;
-    if (!cmd) return say(*context, "the command buffer is null"), output;
-    if (!complete(frame.depth)) return say(*context, "Frame::depth lacks its image, view, format or layout"), output;
-    const bool hasNormals = frame.normals.image || frame.normals.view;
-    if (hasNormals && !complete(frame.normals)) return say(*context, "Frame::normals lacks its image, view, format or layout"), output;
-    const bool hasMotion = frame.motion.image || frame.motion.view;
-    if (hasMotion && !complete(frame.motion)) return say(*context, "Frame::motion lacks its image, view, format or layout"), output;
-    const DepthLayers& layers = frame.layers;
-    const bool hasThickness = layers.thickness.image || layers.thickness.view, hasSecond = layers.second.image || layers.second.view;
-    if (hasThickness && !complete(layers.thickness)) return say(*context, "Frame::layers.thickness lacks its image, view, format or layout"), output;
-    if (hasSecond && !complete(layers.second)) return say(*context, "Frame::layers.second lacks its image, view, format or layout"), output;
-    if (hasSecond && !hasThickness) return say(*context, "Frame::layers.second is of no use without Frame::layers.thickness"), output;
-    const auto isSize = [&](uint32_t side) {
-        return layers.secondSize.width == (frame.size.width + side - 1) / side && layers.secondSize.height == (frame.size.height + side - 1) / side;
-    };
-    if (hasSecond && !isSize(1) && !isSize(2)) return say(*context, "Frame::layers.secondSize is neither Frame::size nor half of it"), output;
-    shared::View view;
-    const char* reason = nullptr;
-    if (viewOf(frame, view, reason) != Status::ok) return say(*context, reason), output;
-
-    shared::Volume volume;
-    if (frame.volume.buffer && volumeOf(frame.volume, volume, reason) != Status::ok) return say(*context, reason), output;
-
-    gpu::Device& device = *context->device;
-    device.nextFrame();
-    graph::Graph& graph = *context->graph;
-    graph.begin();
-    const VkExtent2D visible{view.visible.x, view.visible.y};
-    const gpu::Image* target = nullptr;
-    const gpu::Status made = nextOutput(*context, visible, target);
-    if (made != gpu::Status::ok) return output.status = statusOf(made), output;
-
-    Sources sources;
-    sources.depth = importView(graph, "depth", frame.depth, frame.size);
-    if (hasNormals) sources.normals = importView(graph, "normals", frame.normals, frame.size);
-    if (hasMotion) sources.motion = importView(graph, "motion", frame.motion, frame.size);
-    if (hasThickness) sources.layers.thickness = importView(graph, "thickness", layers.thickness, frame.size);
-    if (hasSecond) sources.layers.second = importView(graph, "second layer", layers.second, layers.secondSize);
-    if (frame.cut) context->library->reset();
-    if (const Volume& v = frame.volume; v.buffer)
-        sources.volume = graph.import("volume bits", {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});
-    const graph::ImageId visibility = context->library->add(graph, frame, sources, context->falloff, *context->values);
-    if (!visibility) return output.status = Status::shaderError, output;
-
-    graph::External external;
-    external.image = target->handle();
-    external.view = target->view();
-    external.desc = target->desc();
-    external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const graph::ImageId result = graph.import("output", external);
-    graph.pass("output").use(visibility, graph::Access::transferRead).use(result, graph::Access::transferWrite, true)
-        .record([visibility, result, visible](const graph::PassContext& c) {
-            const VkImageCopy region{{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {visible.width, visible.height, 1}};
-            c.device.vk().CmdCopyImage(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(result),
-                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-        });
-    output.status = statusOf(graph.execute(cmd));
-    if (output.status != Status::ok) return output;
-    output.image = target->handle();
-    output.view = target->view();
-    output.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    output.status = guarded(context->log, [&] {
+        if (!cmd) return say(*context, "the command buffer is null"), Status::invalid;
+        const Given given = givenBy(frame, false);
+        shared::View view;
+        if (!sensible(*context, frame, given, view)) return Status::invalid;
+        context->device->nextFrame();
+        graph::Graph& graph = *context->graph;
+        graph.begin();
+        const gpu::Image* target = nullptr;
+        if (const gpu::Status made = nextOutput(*context, {view.visible.x, view.visible.y}, target); made != gpu::Status::ok) return statusOf(made);
+        if (frame.cut) context->library->reset();
+        const graph::ImageId visibility = declare(*context, graph, frame, given);
+        if (!visibility) return Status::shaderError;
+        deliver(*context, graph, visibility, *target);
+        const Status status = statusOf(graph.execute(cmd));
+        if (status != Status::ok) return context->library->reset(), status;  // what the frame was to leave behind is not there
+        output.image = target->handle();
+        output.view = target->view();
+        output.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        return Status::ok;
+    });
     return output;
 }
 
-uint64_t memoryUse(const Context* context) { return context ? context->device->memoryUse() : 0; }
+uint64_t memoryUse(const Context* context) noexcept { return context ? context->device->memoryUse() : 0; }
 
-List<PassTime> timings(Context* context) {
+uint64_t memoryUse(Context* context, const Frame& frame) noexcept {
+    uint64_t bytes = 0;
+    if (!context) return bytes;
+    guarded(context->log, [&] {
+        const Given given = givenBy(frame, true);
+        shared::View view;
+        if (!sensible(*context, frame, given, view)) return Status::invalid;
+        graph::Graph rehearsal(*context->device, true);
+        rehearsal.begin();
+        const graph::ImageId visibility = declare(*context, rehearsal, frame, given);
+        if (!visibility) return Status::shaderError;
+        rehearsal.output(visibility);
+        if (context->format == VisibilityFormat::r16f) rehearsal.pass("output").use(visibility, graph::Access::transferRead).keep().record({});
+        const uint64_t passes = rehearsal.rehearsedBytes();
+        const gpu::ImageDesc output = outputDesc(*context, {view.visible.x, view.visible.y});
+        if (passes) bytes = context->methodBytes + passes + context->outputs.size() * gpu::Image::bytesOf(*context->device, output);
+        return Status::ok;
+    });
+    return bytes;
+}
+
+List<PassTime> timings(Context* context) noexcept {
     if (!context) return {};
     Context& own = *context;  // the list lives in the context: the graph's moves on with the next record()
-    own.timedNames.clear();
-    own.timed.clear();
-    for (const graph::PassTime& pass : own.graph->timings().passes) own.timedNames.push_back(pass.name);
-    for (size_t i = 0; i < own.timedNames.size(); ++i) own.timed.push_back({own.timedNames[i].c_str(), own.graph->timings().passes[i].milliseconds});
+    guarded(own.log, [&] {
+        own.timedNames.clear();
+        own.timed.clear();
+        for (const graph::PassTime& pass : own.graph->timings().passes) own.timedNames.push_back(pass.name);
+        for (size_t i = 0; i < own.timedNames.size(); ++i) own.timed.push_back({own.timedNames[i].c_str(), own.graph->timings().passes[i].milliseconds});
+        return Status::ok;
+    });
     return {own.timed.data(), own.timed.size()};
 }
 

@@ -59,16 +59,20 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     }
     if (!prepare(values.info())) return {};
     view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
-    if (m_last != &values.info()) reset();
-    m_last = &values.info();
+    if (m_last != &values.info() && !graph.rehearsal()) {
+        reset();
+        m_last = &values.info();
+    }
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
     if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure};
     const LayerUse use = layersOf(values);
     if (use != LayerUse::none) inputs.layers.thickness = sources.layers.thickness;
     if (use > LayerUse::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;
     previousFromEye(frame.eyeFromWorld, m_hasLast ? m_eyeFromWorld : frame.eyeFromWorld, inputs.previousFromEye);
-    std::memcpy(m_eyeFromWorld, frame.eyeFromWorld, sizeof(m_eyeFromWorld));
-    m_hasLast = true;
+    if (!graph.rehearsal()) {
+        std::memcpy(m_eyeFromWorld, frame.eyeFromWorld, sizeof(m_eyeFromWorld));
+        m_hasLast = true;
+    }
     if (inputsOut) *inputsOut = inputs;
     graph::ImageId visibility;
     for (size_t i = 0; i < registry().size(); ++i) {

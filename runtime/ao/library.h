@@ -22,7 +22,7 @@ public:
     bool prepareAll();
 
     // Adds prepare and method passes; returns visibility, R16F, visible size; none, logged, when the frame makes no sense or
-    // a pipeline cannot be made. Values name the method. `inputs`, when given, receives what prepare made (linear depth).
+    // a pipeline cannot be made. A graph's rehearsal leaves no trace here. Values name the method. `inputs`, when given, receives what prepare made (linear depth).
     graph::ImageId add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values,
                        Inputs* inputs = nullptr);
     void reset();  // camera cut: histories are void

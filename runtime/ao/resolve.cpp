@@ -74,7 +74,7 @@ Status Temporal::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, 
 
 graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings, const char* passName) {
     if (!inputs.motion || settings.history <= 0.0f) {
-        reset();  // what is there ages unseen
+        if (!graph.rehearsal()) reset();  // what is there ages unseen
         return visibility;
     }
     const shared::uvec2 size = inputs.view.visible;

@@ -1,5 +1,5 @@
-// A device once it exists, however it came to be: adoption, deferred release, memory, samplers, immediate commands.
-// Creation is in device_create.cpp.
+// A device once it exists, however it came to be: adoption, deferred release, samplers, immediate commands.
+// Creation is in device_create.cpp, memory in memory.cpp.
 #include "gpu/device.h"
 
 #include <algorithm>
@@ -22,6 +22,7 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& er
     std::unique_ptr<Device> device(new Device);
     device->m_log = host.log;
     device->m_allocator = host.allocator;
+    device->m_memorySource = host.memory;
     device->m_instance = host.instance;
     device->m_physical = host.physicalDevice;
     device->m_queue = host.queue;
@@ -104,19 +105,15 @@ void Device::waitIdle() {
 }
 
 void Device::release(VkObjectType type, uint64_t handle) {
-    if (handle) m_released.push_back({m_frame, type, handle, 0});
-}
-
-void Device::releaseMemory(VkDeviceMemory memory, uint64_t bytes) {
-    if (memory) m_released.push_back({m_frame, VK_OBJECT_TYPE_DEVICE_MEMORY, (uint64_t)memory, bytes});
+    if (handle) m_released.push_back({m_frame, type, handle, {}});
 }
 
 void Device::destroyReleased(uint64_t lastFrame) {
     // Entries are in frame order, and an object's memory stands behind the object.
     size_t count = 0;
     for (; count < m_released.size() && m_released[count].frame <= lastFrame; ++count) {
-        destroy(m_released[count].type, m_released[count].handle);
-        m_memoryUse -= m_released[count].bytes;
+        if (m_released[count].block.memory) freeBlock(m_released[count].block);
+        else destroy(m_released[count].type, m_released[count].handle);
     }
     m_released.erase(m_released.begin(), m_released.begin() + std::ptrdiff_t(count));
 }
@@ -127,7 +124,6 @@ void Device::destroy(VkObjectType type, uint64_t handle) {
         OBSCURA_DESTROY(IMAGE, VkImage, DestroyImage)
         OBSCURA_DESTROY(IMAGE_VIEW, VkImageView, DestroyImageView)
         OBSCURA_DESTROY(BUFFER, VkBuffer, DestroyBuffer)
-        OBSCURA_DESTROY(DEVICE_MEMORY, VkDeviceMemory, FreeMemory)
         OBSCURA_DESTROY(SAMPLER, VkSampler, DestroySampler)
         OBSCURA_DESTROY(SHADER_MODULE, VkShaderModule, DestroyShaderModule)
         OBSCURA_DESTROY(PIPELINE, VkPipeline, DestroyPipeline)
@@ -142,30 +138,6 @@ void Device::destroy(VkObjectType type, uint64_t handle) {
 #undef OBSCURA_DESTROY
         default: log(Severity::error, fmt::format("release of an object of type {}: not a type that can be released", int(type)));
     }
-}
-
-Status Device::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
-                        VkDeviceMemory& memory, VkMemoryPropertyFlags* got) {
-    // Other kinds (lazily allocated, protected, vendors' coherent ones) need features that are not on.
-    constexpr VkMemoryPropertyFlags kPlain = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                             VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    memory = VK_NULL_HANDLE;
-    VkResult result = VK_ERROR_FEATURE_NOT_PRESENT;
-    for (VkMemoryPropertyFlags demand : {wanted | preferred, wanted}) {
-        for (uint32_t type = 0; type < m_memory.memoryTypeCount; ++type) {
-            const VkMemoryPropertyFlags flags = m_memory.memoryTypes[type].propertyFlags;
-            if (!(needs.memoryTypeBits >> type & 1) || (flags & demand) != demand || (flags & ~kPlain)) continue;
-            const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
-            result = m_vk.AllocateMemory(m_device, &info, m_allocator, &memory);
-            if (result != VK_SUCCESS) continue;
-            m_memoryUse += needs.size;
-            if (got) *got = flags;
-            return Status::ok;
-        }
-        if (preferred == 0) break;
-    }
-    memory = VK_NULL_HANDLE;
-    return fromVulkan(result);
 }
 
 VkSampler Device::sampler(Filter filter, VkSamplerAddressMode address) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/api.h"
+#include "gpu/memory.h"
 
 namespace obscura::gpu {
 
@@ -41,6 +41,7 @@ struct AdoptedDevice {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     uint32_t framesInFlight = 2;
     const VkAllocationCallbacks* allocator = nullptr;
+    MemorySource memory;              // empty: vkAllocateMemory, once an image or buffer
     Log log;
 };
 
@@ -93,11 +94,11 @@ public:
     void release(VkObjectType type, uint64_t handle);
     template <class Handle> void release(VkObjectType type, Handle handle) { release(type, (uint64_t)handle); }
 
-    // Memory. The size counts towards memoryUse() until the memory is really freed: framesInFlight frames after its
-    // release, or at waitIdle().
-    Status allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
-                    VkDeviceMemory& memory, VkMemoryPropertyFlags* got = nullptr);
-    void releaseMemory(VkDeviceMemory memory, uint64_t bytes);
+    // Memory for an image or a buffer, mapped where `wanted` says host visible. The size counts towards memoryUse() until the
+    // memory is really freed: framesInFlight frames after its release, or at waitIdle().
+    Status allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool image,
+                    MemoryBlock& block);
+    void releaseMemory(const MemoryBlock& block);
     uint64_t memoryUse() const { return m_memoryUse; }  // bytes of device memory allocated by us
 
     VkSampler sampler(Filter filter, VkSamplerAddressMode address);  // cached, owned by the device
@@ -118,7 +119,9 @@ private:
     void writePipelineCache() const;
     void destroy(VkObjectType type, uint64_t handle);
     void destroyReleased(uint64_t lastFrame);
-    struct Released { uint64_t frame; VkObjectType type; uint64_t handle; uint64_t bytes; };
+    VkResult allocateBlock(const VkMemoryRequirements& needs, bool mapped, bool image, MemoryBlock& block);
+    void freeBlock(const MemoryBlock& block);
+    struct Released { uint64_t frame; VkObjectType type; uint64_t handle; MemoryBlock block; };
 
     Api m_vk;
     VkInstance m_instance = VK_NULL_HANDLE;
@@ -130,6 +133,7 @@ private:
     VkCommandPool m_commandPool = VK_NULL_HANDLE;
     VkCommandBuffer m_commandBuffer = VK_NULL_HANDLE;  // of runNow
     const VkAllocationCallbacks* m_allocator = nullptr;
+    MemorySource m_memorySource;
     uint32_t m_queueFamily = 0;
     uint32_t m_framesInFlight = 2;
     bool m_owned = false;

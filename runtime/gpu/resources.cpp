@@ -89,6 +89,29 @@ const char* forbiddenUse(const Device& device, const ImageDesc& desc) {
     return nullptr;
 }
 
+VkImageCreateInfo infoOf(const ImageDesc& desc) {
+    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    info.imageType = desc.depth > 1 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
+    info.format = desc.format;
+    info.extent = {desc.width, desc.height, desc.depth};
+    info.mipLevels = desc.mips;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = desc.usage;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return info;
+}
+
+VkBufferCreateInfo infoOf(uint64_t bytes, VkBufferUsageFlags usage, Memory memory) {
+    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.size = bytes;
+    // Device memory can only be filled and looked at by transfers.
+    info.usage = memory == Memory::device ? usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT : usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    return info;
+}
+
 }  // namespace
 
 Image::~Image() {
@@ -97,15 +120,14 @@ Image::~Image() {
         if (view != m_view) m_device->release(VK_OBJECT_TYPE_IMAGE_VIEW, view);
     m_device->release(VK_OBJECT_TYPE_IMAGE_VIEW, m_view);
     m_device->release(VK_OBJECT_TYPE_IMAGE, m_image);
-    m_device->releaseMemory(m_memory, m_bytes);
+    m_device->releaseMemory(m_block);
 }
 
 void Image::swap(Image& other) noexcept {
     std::swap(m_device, other.m_device);
     std::swap(m_desc, other.m_desc);
     std::swap(m_image, other.m_image);
-    std::swap(m_memory, other.m_memory);
-    std::swap(m_bytes, other.m_bytes);
+    std::swap(m_block, other.m_block);
     std::swap(m_view, other.m_view);
     std::swap(m_mipViews, other.m_mipViews);
 }
@@ -126,26 +148,16 @@ Status Image::create(Device& device, const ImageDesc& desc, const char* name, Im
     Image made;
     made.m_device = &device;
     made.m_desc = desc;
-    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = desc.depth > 1 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
-    info.format = desc.format;
-    info.extent = {desc.width, desc.height, desc.depth};
-    info.mipLevels = desc.mips;
-    info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
-    info.usage = desc.usage;
-    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    const VkImageCreateInfo info = infoOf(desc);
     if (VkResult result = vk.CreateImage(device.handle(), &info, device.allocator(), &made.m_image)) {
         made.m_image = VK_NULL_HANDLE;
         return bad(fromVulkan(result), resultName(result));
     }
     VkMemoryRequirements needs;
     vk.GetImageMemoryRequirements(device.handle(), made.m_image, &needs);
-    if (Status status = device.allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, made.m_memory); status != Status::ok)
+    if (Status status = device.allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, true, made.m_block); status != Status::ok)
         return bad(status, fmt::format("{} bytes of device memory: {}", needs.size, gpu::name(status)));
-    made.m_bytes = needs.size;
-    if (VkResult result = vk.BindImageMemory(device.handle(), made.m_image, made.m_memory, 0)) return bad(fromVulkan(result), resultName(result));
+    if (VkResult result = vk.BindImageMemory(device.handle(), made.m_image, made.m_block.memory, made.m_block.offset)) return bad(fromVulkan(result), resultName(result));
 
     constexpr VkImageUsageFlags kViewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                           VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
@@ -178,19 +190,27 @@ Status Image::create(Device& device, const ImageDesc& desc, const char* name, Im
     return Status::ok;
 }
 
+uint64_t Image::bytesOf(Device& device, const ImageDesc& desc) {
+    const VkImageCreateInfo info = infoOf(desc);
+    VkImage image = VK_NULL_HANDLE;
+    if (device.vk().CreateImage(device.handle(), &info, device.allocator(), &image) != VK_SUCCESS) return 0;
+    VkMemoryRequirements needs;
+    device.vk().GetImageMemoryRequirements(device.handle(), image, &needs);
+    device.vk().DestroyImage(device.handle(), image, device.allocator());
+    return needs.size;
+}
+
 Buffer::~Buffer() {
     if (!m_device) return;
     m_device->release(VK_OBJECT_TYPE_BUFFER, m_buffer);
-    m_device->releaseMemory(m_memory, m_bytes);  // freeing unmaps
+    m_device->releaseMemory(m_block);
 }
 
 void Buffer::swap(Buffer& other) noexcept {
     std::swap(m_device, other.m_device);
     std::swap(m_buffer, other.m_buffer);
-    std::swap(m_memory, other.m_memory);
+    std::swap(m_block, other.m_block);
     std::swap(m_size, other.m_size);
-    std::swap(m_bytes, other.m_bytes);
-    std::swap(m_mapped, other.m_mapped);
 }
 
 Status Buffer::create(Device& device, uint64_t bytes, VkBufferUsageFlags usage, Memory memory, const char* name, Buffer& out) {
@@ -203,11 +223,7 @@ Status Buffer::create(Device& device, uint64_t bytes, VkBufferUsageFlags usage, 
     Buffer made;
     made.m_device = &device;
     made.m_size = bytes;
-    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    info.size = bytes;
-    // Device memory can only be filled and looked at by transfers.
-    info.usage = memory == Memory::device ? usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT : usage;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    const VkBufferCreateInfo info = infoOf(bytes, usage, memory);
     if (VkResult result = vk.CreateBuffer(device.handle(), &info, device.allocator(), &made.m_buffer)) {
         made.m_buffer = VK_NULL_HANDLE;
         return bad(fromVulkan(result), resultName(result));
@@ -217,17 +233,23 @@ Status Buffer::create(Device& device, uint64_t bytes, VkBufferUsageFlags usage, 
     constexpr VkMemoryPropertyFlags kMapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const VkMemoryPropertyFlags wanted = memory == Memory::device ? VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) : kMapped;
     const VkMemoryPropertyFlags preferred = memory == Memory::readback ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : 0;
-    if (Status status = device.allocate(needs, wanted, preferred, made.m_memory); status != Status::ok)
+    if (Status status = device.allocate(needs, wanted, preferred, false, made.m_block); status != Status::ok)
         return bad(status, fmt::format("{} bytes of {} memory: {}", needs.size, memory == Memory::device ? "device" : "host-visible", gpu::name(status)));
-    made.m_bytes = needs.size;
-    VkResult result = vk.BindBufferMemory(device.handle(), made.m_buffer, made.m_memory, 0);
-    void* mapped = nullptr;
-    if (result == VK_SUCCESS && memory != Memory::device) result = vk.MapMemory(device.handle(), made.m_memory, 0, VK_WHOLE_SIZE, 0, &mapped);
-    if (result != VK_SUCCESS) return bad(fromVulkan(result), resultName(result));
-    made.m_mapped = static_cast<std::byte*>(mapped);
+    if (VkResult result = vk.BindBufferMemory(device.handle(), made.m_buffer, made.m_block.memory, made.m_block.offset))
+        return bad(fromVulkan(result), resultName(result));
     device.nameObject(VK_OBJECT_TYPE_BUFFER, (uint64_t)made.m_buffer, name);
     out = std::move(made);
     return Status::ok;
+}
+
+uint64_t Buffer::bytesOf(Device& device, uint64_t bytes, VkBufferUsageFlags usage, Memory memory) {
+    const VkBufferCreateInfo info = infoOf(bytes, usage, memory);
+    VkBuffer buffer = VK_NULL_HANDLE;
+    if (device.vk().CreateBuffer(device.handle(), &info, device.allocator(), &buffer) != VK_SUCCESS) return 0;
+    VkMemoryRequirements needs;
+    device.vk().GetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    device.vk().DestroyBuffer(device.handle(), buffer, device.allocator());
+    return needs.size;
 }
 
 }  // namespace obscura::gpu

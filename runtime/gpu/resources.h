@@ -34,15 +34,15 @@ public:
     VkImageView view() const { return m_view; }                       // all mips
     VkImageView mipView(uint32_t mip) const { return m_mipViews[mip]; }
     const ImageDesc& desc() const { return m_desc; }
-    uint64_t bytes() const { return m_bytes; }
+    uint64_t bytes() const { return m_block.bytes; }
+    static uint64_t bytesOf(Device& device, const ImageDesc& desc);   // what one would take; allocates nothing; 0 if it cannot be made
 
 private:
     void swap(Image& other) noexcept;
     Device* m_device = nullptr;
     ImageDesc m_desc;
     VkImage m_image = VK_NULL_HANDLE;
-    VkDeviceMemory m_memory = VK_NULL_HANDLE;
-    uint64_t m_bytes = 0;
+    MemoryBlock m_block;
     VkImageView m_view = VK_NULL_HANDLE;
     std::vector<VkImageView> m_mipViews;
 };
@@ -60,15 +60,15 @@ public:
     explicit operator bool() const { return m_buffer != VK_NULL_HANDLE; }
     VkBuffer handle() const { return m_buffer; }
     uint64_t bytes() const { return m_size; }
-    std::byte* mapped() const { return m_mapped; }  // null for Memory::device
+    std::byte* mapped() const { return m_block.mapped; }  // null for Memory::device
+    static uint64_t bytesOf(Device& device, uint64_t bytes, VkBufferUsageFlags usage, Memory memory);  // likewise
 
 private:
     void swap(Buffer& other) noexcept;
     Device* m_device = nullptr;
     VkBuffer m_buffer = VK_NULL_HANDLE;
-    VkDeviceMemory m_memory = VK_NULL_HANDLE;
-    uint64_t m_size = 0, m_bytes = 0;
-    std::byte* m_mapped = nullptr;
+    MemoryBlock m_block;
+    uint64_t m_size = 0;
 };
 
 // Load-time transfers: each waits until it is done.

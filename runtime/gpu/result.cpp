@@ -23,6 +23,7 @@ Status fromVulkan(VkResult result) {
         case VK_SUBOPTIMAL_KHR: return Status::ok;
         case VK_ERROR_OUT_OF_HOST_MEMORY:
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        case VK_ERROR_MEMORY_MAP_FAILED:
         case VK_ERROR_OUT_OF_POOL_MEMORY:
         case VK_ERROR_FRAGMENTED_POOL:
         case VK_ERROR_FRAGMENTATION:

@@ -15,6 +15,9 @@ namespace {
 constexpr uint64_t kUploadChunk = 256 << 10;  // bytes
 constexpr uint64_t kUploadAlignment = 256;    // the largest minimum any Vulkan device asks for
 constexpr uint64_t kForgetAfter = 16;         // frames a pooled image may lie unused
+constexpr VkBufferUsageFlags kUploadUsage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags kBufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 
 }  // namespace
 
@@ -86,7 +89,7 @@ void Pass::record(Record record) {
 
 // ---- Graph ----------------------------------------------------------------------------------------------------------
 
-Graph::Graph(gpu::Device& device) : m_device(device) {
+Graph::Graph(gpu::Device& device, bool rehearsal) : m_device(device), m_rehearsal(rehearsal) {
     for (uint32_t i = 0; i < device.framesInFlight(); ++i) m_frames.push_back(std::make_unique<Frame>());
 }
 
@@ -171,17 +174,19 @@ BufferId Graph::import(std::string name, const ExternalBuffer& buffer) {
 BufferId Graph::upload(std::string name, const void* data, size_t bytes) {
     Frame::Upload* chunk = nullptr;
     for (Frame::Upload& upload : m_frame->uploads)
-        if (upload.used + bytes <= upload.buffer.bytes()) { chunk = &upload; break; }
+        if (upload.used + bytes <= upload.bytes) { chunk = &upload; break; }
     const uint32_t index = add({std::move(name), Kind::buffer, {}, std::vector<State>(1)});
     if (!chunk) {
         Frame::Upload fresh;
-        if (gpu::Buffer::create(m_device, std::max<uint64_t>(kUploadChunk, bytes), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::upload, "graph upload", fresh.buffer) != gpu::Status::ok)
+        fresh.bytes = std::max<uint64_t>(kUploadChunk, bytes);
+        if (m_rehearsal)
+            m_rehearsed += m_frames.size() * gpu::Buffer::bytesOf(m_device, fresh.bytes, kUploadUsage, gpu::Memory::upload);
+        else if (gpu::Buffer::create(m_device, fresh.bytes, kUploadUsage, gpu::Memory::upload, "graph upload", fresh.buffer) != gpu::Status::ok)
             return {index};  // execute() fails: the buffer is null
         m_frame->uploads.push_back(std::move(fresh));
         chunk = &m_frame->uploads.back();
     }
-    std::memcpy(chunk->buffer.mapped() + chunk->used, data, bytes);
+    if (!m_rehearsal) std::memcpy(chunk->buffer.mapped() + chunk->used, data, bytes);
     m_physical[index].buffer = chunk->buffer.handle();
     m_physical[index].offset = chunk->used;
     m_physical[index].bytes = bytes;
@@ -190,11 +195,14 @@ BufferId Graph::upload(std::string name, const void* data, size_t bytes) {
 }
 
 BufferId Graph::buffer(std::string name, uint64_t bytes) {
+    if (m_rehearsal) {
+        m_rehearsed += gpu::Buffer::bytesOf(m_device, bytes, kBufferUsage, gpu::Memory::device);
+        return {add({std::move(name), Kind::buffer, {}, std::vector<State>(1)})};
+    }
     auto found = std::find_if(m_buffers.begin(), m_buffers.end(), [&](const PoolBuffer& b) { return !b.taken && b.buffer.bytes() == bytes; });
     if (found == m_buffers.end()) {
         PoolBuffer fresh;
-        gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, gpu::Memory::device, name.c_str(), fresh.buffer);
+        gpu::Buffer::create(m_device, bytes, kBufferUsage, gpu::Memory::device, name.c_str(), fresh.buffer);
         found = m_buffers.insert(m_buffers.end(), std::move(fresh));
     }
     found->taken = true;
@@ -208,6 +216,13 @@ BufferId Graph::buffer(std::string name, uint64_t bytes) {
 
 Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History& history) {
     desc.usage |= VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (m_rehearsal) {
+        m_rehearsed += 2 * gpu::Image::bytesOf(m_device, desc);
+        const ImageId previous{add({name + ".previous", Kind::imported, desc, std::vector<State>(desc.mips)})};
+        const ImageId current{add({name, Kind::imported, desc, std::vector<State>(desc.mips)})};
+        output(current);
+        return {previous, current, false};
+    }
     if (!history.m_images[0] || !(history.m_images[0].desc() == desc)) {
         for (int i = 0; i < 2; ++i) {
             gpu::Image::create(m_device, desc, name.c_str(), history.m_images[i]);
@@ -255,44 +270,6 @@ void Graph::output(ImageId image) { m_recording.resources[image.index].output = 
 const gpu::ImageDesc& Graph::desc(ImageId id) const { return m_recording.resources[id.index].desc; }
 const std::string& Graph::name(ImageId id) const { return m_recording.resources[id.index].name; }
 
-std::vector<Graph::Written> Graph::written() const {
-    std::vector<Written> result;
-    for (const Pass& pass : m_passes) {
-        const PassDesc& desc = m_recording.passes[pass.m_index];
-        for (const Use& use : desc.uses)
-            if (info(use.access).writes && m_recording.resources[use.resource].kind != Kind::buffer)
-                result.push_back({desc.name, {use.resource}});
-        for (const Pass::Bound& bound : pass.m_bound)
-            if (bound.writes && !bound.isBuffer) result.push_back({desc.name, {bound.resource}});
-    }
-    return result;
-}
-
-std::string Graph::planText() const { return m_plan.text(m_recording); }
-std::string Graph::planDot() const { return m_plan.dot(m_recording); }
-
-uint64_t Graph::poolBytes() const {
-    uint64_t total = 0;
-    for (const PoolImage& image : m_pool) total += image.image.bytes();
-    for (const PoolBuffer& buffer : m_buffers) total += buffer.buffer.bytes();
-    return total;
-}
-
-uint64_t Graph::frameBytes() const {
-    uint64_t total = 0;
-    for (const PoolImage& image : m_pool)
-        if (image.lastUsed == m_device.frame()) total += image.image.bytes();
-    std::vector<VkBuffer> seen;
-    for (uint32_t i = 0; i < m_recording.resources.size(); ++i) {
-        const Physical& physical = m_physical[i];
-        if (physical.owned && m_plan.slotOf[i] < 0) total += physical.owned->bytes();
-        if (!physical.buffer || std::find(seen.begin(), seen.end(), physical.buffer) != seen.end()) continue;
-        seen.push_back(physical.buffer);
-        total += physical.bytes;
-    }
-    return total;
-}
-
 // A pass against its shaders: as many bindings as reads and writes, each of the kind that was given.
 bool Graph::check(const Pass& pass) {
     const std::string& name = m_recording.passes[pass.m_index].name;
@@ -327,10 +304,11 @@ bool Graph::check(const Pass& pass) {
     return true;
 }
 
-gpu::Status Graph::realize() {
+// What each pass binds, as its shader says how.
+bool Graph::bindings() {
     for (Pass& pass : m_passes) {
         if (pass.m_program) pass.m_program->refresh();
-        if (!check(pass)) return gpu::Status::invalid;
+        if (!check(pass)) return false;
         if (!pass.m_program) continue;
         size_t next = 0;
         for (const gpu::Binding& binding : pass.m_program->bindings()) {
@@ -342,7 +320,11 @@ gpu::Status Graph::realize() {
                                                              pipelineStages(pass.m_program->stagesOf(binding)), false});
         }
     }
+    return true;
+}
 
+gpu::Status Graph::realize() {
+    if (!bindings()) return gpu::Status::invalid;
     // Pool images that nobody wanted for a while go; the rest lend their states to the plan.
     for (size_t i = m_pool.size(); i-- > 0;) {
         if (m_pool[i].lastUsed + kForgetAfter >= m_device.frame()) continue;

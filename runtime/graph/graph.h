@@ -125,7 +125,8 @@ private:
 
 class Graph {
 public:
-    explicit Graph(gpu::Device& device);
+    // `rehearsal`: to be declared like any other and never executed; makes nothing on the GPU. rehearsedBytes() is what it is for.
+    explicit Graph(gpu::Device& device, bool rehearsal = false);
     ~Graph();
     Graph(const Graph&) = delete;
 
@@ -167,6 +168,10 @@ public:
     uint64_t poolBytes() const;
     // Device memory that this frame's passes have in use: pooled images and buffers, histories, buffers from outside. After execute().
     uint64_t frameBytes() const;
+    // Device memory that graphs declared like this one come to hold: pool, histories, uploads of all frames in flight. 0, logged, when
+    // the recording contradicts itself. Of a rehearsal, once.
+    uint64_t rehearsedBytes();
+    bool rehearsal() const { return m_rehearsal; }
     gpu::Device& device() const { return m_device; }
 
 private:
@@ -176,6 +181,7 @@ private:
     struct Physical;                                       // what a resource is on the GPU this frame
     struct PoolImage;
     struct PoolBuffer;
+    bool bindings();
     gpu::Status realize();
     gpu::Status bind(VkCommandBuffer cmd, Pass& pass);
     void barriers(VkCommandBuffer cmd, const std::vector<Barrier>& list);
@@ -186,6 +192,8 @@ private:
     uint32_t add(Resource resource);
 
     gpu::Device& m_device;
+    const bool m_rehearsal;
+    uint64_t m_rehearsed = 0;                              // bytes of histories and buffers
     Recording m_recording;
     Plan m_plan;
     std::deque<Pass> m_passes;

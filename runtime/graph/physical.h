@@ -29,7 +29,7 @@ struct Graph::PoolBuffer {
 
 // What one frame in flight holds until its turn comes again.
 struct Graph::Frame {
-    struct Upload { gpu::Buffer buffer; uint64_t used = 0; };
+    struct Upload { gpu::Buffer buffer; uint64_t bytes = 0, used = 0; };
     std::vector<VkDescriptorPool> pools;
     size_t pool = 0;                               // the one being allocated from
     VkQueryPool queries = VK_NULL_HANDLE;

@@ -183,6 +183,8 @@ private:
         return blurred;
     }
 
+    void reset() override { m_table.reset(); }
+
     FalloffTable m_table;
     gpu::Program m_scan[4], m_obscurance[4], m_thin[4], m_interleaved[4];  // by averaging
     gpu::Program m_prefix, m_pyramid, m_boxAverage, m_blur;

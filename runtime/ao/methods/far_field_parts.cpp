@@ -60,8 +60,10 @@ graph::ImageId FalloffTable::add(graph::Graph& graph, const Inputs& inputs, cons
     if (!same) {
         const struct { shared::FalloffBlock falloff; float unit; } constants{inputs.falloff, f.length};
         graph.pass(passName, m_program).write(table).constants(constants).dispatch(kRows);
-        m_falloff = f;
-        m_made = true;
+        if (!graph.rehearsal()) {
+            m_falloff = f;
+            m_made = true;
+        }
     }
     return table;
 }

@@ -14,6 +14,7 @@ class FalloffTable {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffTable& out);
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const char* passName);
+    void reset() { m_made = false; }  // it may never have run
 
 private:
     gpu::Program m_program;

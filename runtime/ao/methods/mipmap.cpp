@@ -72,6 +72,8 @@ public:
         return {Blocking::kEndless, values["thickness"] > 0.0f ? values["thickness"] : Blocking::kEndless};
     }
 
+    void reset() override { m_table.reset(); }
+
 private:
     FalloffTable m_table;
     gpu::Program m_base, m_reduce, m_obscurance[2];  // endless, thin

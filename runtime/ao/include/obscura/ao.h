@@ -2,10 +2,11 @@
 //
 //   create() adopts your device; record() writes commands into your command buffer: depth and normals in, visibility out.
 //
-// Contract. Nothing is submitted or waited for. After the first frame at a size nothing is allocated. Call record()
-// outside rendering; bound pipelines, descriptor sets and push constants of both bind points are clobbered, dynamic state
-// is not. Inputs are read in shaders and come back in the layouts you name. No exception leaves; every failure is a
-// Status and one line to your log. A Context is used by one thread at a time; different contexts are independent.
+// Contract. Nothing is submitted or waited for. After the first frames at a size nothing is allocated. Call record()
+// outside rendering; the compute bind point's pipeline, descriptor sets and push constants are clobbered, nothing else is.
+// Inputs are read in shaders and come back in the layouts you name. No exception leaves; every failure is a Status and one
+// line to your log. A Context is used by one thread at a time; different contexts are independent: there is no global state.
+// Strings, lists and descriptions that you pass are read during the call and may go after it; handles stay yours.
 //
 // Space. Eye space: right-handed, camera at the origin looking down -z, y up; lengths in metres (or your unit: the falloff
 // has the same). Pixels count from the upper left. Visibility: 1 open, 0 blocked, linear.
@@ -90,22 +91,40 @@ float reach(const Falloff& falloff);                     // metres beyond which 
 // ---- The door for host engines --------------------------------------------------------------------------------------
 
 enum class Severity : uint8_t { info, warning, error };
+enum class VisibilityFormat : uint8_t { r16f, r8 };  // VK_FORMAT_R16_SFLOAT; VK_FORMAT_R8_UNORM, rounded to the nearest of 256 values
+
+// Device memory out of your own pools. Called from create(), setMethod(), record() and destroy(), on their thread; throws nothing.
+struct MemoryBlock {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    uint64_t offset = 0;      // bytes, a multiple of the alignment asked for
+    void* mapped = nullptr;   // where asked for: address of the block's first byte, good until free()
+    void* token = nullptr;    // yours, comes back to free()
+};
+struct MemoryCallbacks {      // both functions or neither
+    // needs.size bytes of a type in needs.memoryTypeBits: any of them will do (what is to be mapped gets coherent ones alone). `image`: for an
+    // image of optimal tiling, else for a buffer; bufferImageGranularity is yours to keep. Not VK_SUCCESS: there is none.
+    VkResult (*allocate)(void* user, const VkMemoryRequirements& needs, bool mapped, bool image, MemoryBlock& block) = nullptr;
+    void (*free)(void* user, const MemoryBlock& block) = nullptr;  // the GPU is done with it
+    void* user = nullptr;
+};
 
 struct DeviceDesc {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;    // Vulkan 1.3, synchronization2 enabled
+    VkDevice device = VK_NULL_HANDLE;    // Vulkan 1.3 with the features synchronization2 and shaderStorageImageExtendedFormats enabled
     uint32_t queueFamily = 0;            // of the command buffers given to record(); must do compute
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
-    uint32_t framesInFlight = 2;         // record() may reuse what it used so many calls ago
-    const VkAllocationCallbacks* allocator = nullptr;  // host memory; may be null
-    void (*log)(void* user, Severity severity, const char* line) = nullptr;
+    uint32_t framesInFlight = 2;         // 1 or more: record() reuses what it used so many calls ago; the GPU is done with that by then
+    VisibilityFormat format = VisibilityFormat::r16f;  // of every Output
+    const VkAllocationCallbacks* allocator = nullptr;  // host memory of Vulkan objects; null: the driver's. The struct outlives the context
+    MemoryCallbacks memory;              // device memory; empty: vkAllocateMemory, a handful of images and buffers a method
+    void (*log)(void* user, Severity severity, const char* line) = nullptr;  // null: warnings and errors go to stderr
     void* logUser = nullptr;
 };
 
 struct Context;                          // opaque; destroy() before the device
-Status create(const DeviceDesc& desc, Context** context);
-void destroy(Context* context);          // the caller has waited for the GPU; null is ignored
+Status create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
+void destroy(Context* context) noexcept; // the caller has waited for the GPU; null is ignored
 
 // Which method the next record() runs. Unknown ids and settings are Status::invalid with a log line that lists what there
 // is; values out of range are clamped. Pipelines are made here, not in record().
@@ -115,7 +134,7 @@ struct MethodSettings {
     Falloff falloff;
     const char* resolve = nullptr;       // of resolvePresets(), over the preset; null: as that says
 };
-Status setMethod(Context* context, const char* id, const MethodSettings& settings);
+Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
 
 struct ImageView {
     VkImage image = VK_NULL_HANDLE;
@@ -174,18 +193,23 @@ struct Frame {
     uint64_t index = 0;                  // counts frames
 };
 
+// Visibility. The image is the context's; it holds what it says until the context has recorded framesInFlight more frames. All null unless
+// status is ok. (A method that makes bent normals will say so in MethodInfo, and a second image of this kind will follow here.)
 struct Output {
     Status status = Status::invalid;
-    VkImage image = VK_NULL_HANDLE;      // R16F, visible size; valid until the context has recorded framesInFlight more frames
+    VkImage image = VK_NULL_HANDLE;      // DeviceDesc::format, Frame::size less guard bands; usage sampled, transfer source and destination
     VkImageView view = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL: reads in compute and fragment shaders need no barrier
 };
-Output record(Context* context, VkCommandBuffer cmd, const Frame& frame);
+Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept;
 
-uint64_t memoryUse(const Context* context);  // bytes of device memory held
+uint64_t memoryUse(const Context* context) noexcept;  // bytes of device memory held
+// Before there is any: what a context comes to hold that records frames like this one with the method now set. Of the frame's images
+// only size and format count, and one with a format counts as given. Allocates no device memory. 0, logged, where record() would refuse.
+uint64_t memoryUse(Context* context, const Frame& frame) noexcept;
 
 struct PassTime { const char* name; double milliseconds; };
-List<PassTime> timings(Context* context);  // of the newest finished frame; valid until the next record()
+List<PassTime> timings(Context* context) noexcept;  // of the newest finished frame; valid until the next record(), owned by the context
 
 }  // namespace obscura::ao
 

@@ -1,0 +1,11 @@
+// Visibility as a host asked for it: eight bits, rounded to the nearest.
+#version 460
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, r16f) uniform readonly image2D visibility;
+layout(set = 0, binding = 1, r8) uniform writeonly image2D result;
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, imageSize(result)))) return;
+    imageStore(result, p, vec4(imageLoad(visibility, p).x));
+}
