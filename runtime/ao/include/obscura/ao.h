@@ -35,7 +35,7 @@ template <class T> struct List {  // a view of `count` items; owned by whoever m
 struct Parameter {
     const char* id;        // "directions"
     const char* unit;      // "m", "px", "" for counts
-    float minimum, maximum, initial;
+    float minimum, maximum, initial;  // in `unit`; both ends included
     bool integer;          // whole numbers only
     List<const char*> choices;  // named values 0..count-1; empty for plain numbers
     const char* sentence;  // what it does and what it costs
@@ -43,12 +43,12 @@ struct Parameter {
 
 struct Setting {
     const char* id;        // of a Parameter
-    float value;
+    float value;           // in the parameter's unit; a choice by its number
 };
 
 struct Preset {
     const char* id;        // "default" comes first in every method
-    const char* sentence;
+    const char* sentence;  // what it is good for
     List<Setting> settings;  // over the initial values
 };
 
@@ -58,10 +58,10 @@ struct MethodInfo {
     const char* id;        // "hbao"
     const char* title;     // "Horizon-based ambient occlusion"
     const char* paper;     // citation; empty for our own
-    const char* sentence;
+    const char* sentence;  // how it works
     uint32_t needs;        // Needs it cannot do without (missing normals are reconstructed)
-    List<Parameter> parameters;
-    List<Preset> presets;
+    List<Parameter> parameters;  // its own, then those that all share
+    List<Preset> presets;  // the first is "default"
     bool yardstick = false;  // here to be compared with; others' published method, not one this library is about
 };
 
@@ -79,7 +79,7 @@ const Preset* findResolvePreset(const char* id);  // null when there is none
 enum class FalloffKind : uint32_t { exponential, linear, quadratic, wendland, constant, ramp };
 
 struct Falloff {
-    FalloffKind kind = FalloffKind::quadratic;
+    FalloffKind kind = FalloffKind::quadratic;  // the curve
     float length = 2.0f;   // metres: exp(-d/length); 1-d/length; 1-(d/length)^2; ...; ramp: 1 up to here
     float end = 0.0f;      // metres, ramp only: 0 from here on
 };
@@ -95,7 +95,7 @@ enum class VisibilityFormat : uint8_t { r16f, r8 };  // VK_FORMAT_R16_SFLOAT; VK
 
 // Device memory out of your own pools. Called from create(), setMethod(), record() and destroy(), on their thread; throws nothing.
 struct MemoryBlock {
-    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;  // yours
     uint64_t offset = 0;      // bytes, a multiple of the alignment asked for
     void* mapped = nullptr;   // where asked for: address of the block's first byte, good until free()
     void* token = nullptr;    // yours, comes back to free()
@@ -103,23 +103,23 @@ struct MemoryBlock {
 struct MemoryCallbacks {      // both functions or neither
     // needs.size bytes of a type in needs.memoryTypeBits: any of them will do (what is to be mapped gets coherent ones alone). `image`: for an
     // image of optimal tiling, else for a buffer; bufferImageGranularity is yours to keep. Not VK_SUCCESS: there is none.
-    VkResult (*allocate)(void* user, const VkMemoryRequirements& needs, bool mapped, bool image, MemoryBlock& block) = nullptr;
+    VkResult (*allocate)(void* user, const VkMemoryRequirements& needs, bool mapped, bool image, MemoryBlock& block) = nullptr;  // fills `block`
     void (*free)(void* user, const MemoryBlock& block) = nullptr;  // the GPU is done with it
-    void* user = nullptr;
+    void* user = nullptr;     // comes back to both
 };
 
 struct DeviceDesc {
-    VkInstance instance = VK_NULL_HANDLE;
-    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;    // Vulkan 1.3 with the features synchronization2 and shaderStorageImageExtendedFormats enabled
+    VkInstance instance = VK_NULL_HANDLE;              // Vulkan 1.3, as all handles here yours and alive until destroy()
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;  // that `device` was made of
+    VkDevice device = VK_NULL_HANDLE;    // Vulkan 1.3 with the features synchronization2, maintenance4 and shaderStorageImageExtendedFormats on
     uint32_t queueFamily = 0;            // of the command buffers given to record(); must do compute
-    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  // the loader's; the library links to none
     uint32_t framesInFlight = 2;         // 1 or more: record() reuses what it used so many calls ago; the GPU is done with that by then
     VisibilityFormat format = VisibilityFormat::r16f;  // of every Output
     const VkAllocationCallbacks* allocator = nullptr;  // host memory of Vulkan objects; null: the driver's. The struct outlives the context
     MemoryCallbacks memory;              // device memory; empty: vkAllocateMemory, a handful of images and buffers a method
     void (*log)(void* user, Severity severity, const char* line) = nullptr;  // null: warnings and errors go to stderr
-    void* logUser = nullptr;
+    void* logUser = nullptr;             // comes back to log()
 };
 
 struct Context;                          // opaque; destroy() before the device
@@ -129,17 +129,17 @@ void destroy(Context* context) noexcept; // the caller has waited for the GPU; n
 // Which method the next record() runs. Unknown ids and settings are Status::invalid with a log line that lists what there
 // is; values out of range are clamped. Pipelines are made here, not in record().
 struct MethodSettings {
-    const char* preset = "default";
+    const char* preset = "default";      // of the method
     List<Setting> settings;              // over the preset, and over `resolve`
-    Falloff falloff;
+    Falloff falloff;                     // the same question to every method
     const char* resolve = nullptr;       // of resolvePresets(), over the preset; null: as that says
 };
 Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
 
 struct ImageView {
-    VkImage image = VK_NULL_HANDLE;
+    VkImage image = VK_NULL_HANDLE;      // yours, until the GPU is done with the frame
     VkImageView view = VK_NULL_HANDLE;   // 2D, mip 0; depth formats: depth aspect only
-    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkFormat format = VK_FORMAT_UNDEFINED;  // of the view
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // on entry and on return; contents must stay
 };
 
@@ -155,7 +155,7 @@ enum class NormalEncoding : uint8_t { signedFloat, unsignedHalf, octahedral32 };
 // Or, for a world that no cube covers, a NanoVDB grid of type mask whose index space counts cells likewise.
 enum class VolumeStructure : uint8_t { dense, nanovdb };
 struct Volume {
-    VolumeStructure structure = VolumeStructure::dense;
+    VolumeStructure structure = VolumeStructure::dense;  // which of the two
     VkBuffer buffer = VK_NULL_HANDLE;    // storage usage, cells^3 / 8 bytes (nanovdb: `bytes`) from `offset` on; null: no volume
     uint64_t offset = 0;                 // bytes, a multiple of minStorageBufferOffsetAlignment
     uint64_t bytes = 0;                  // nanovdb: of the grid
@@ -179,10 +179,10 @@ struct Frame {
     float projection[16] = {};           // eye -> clip of the whole image, columns, Vulkan clip space; any depth convention
     float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // columns, rigid; for world normals and for histories
     ImageView depth;                     // device: D16, D24, D32 or R32F, sampled usage; linear: R32F
-    DepthKind depthKind = DepthKind::device;
+    DepthKind depthKind = DepthKind::device;  // device: as `projection` says
     ImageView normals;                   // optional: geometric normals, sampled usage
-    NormalKind normalKind = NormalKind::eye;
-    NormalEncoding normalEncoding = NormalEncoding::signedFloat;
+    NormalKind normalKind = NormalKind::eye;  // the space; world: turned by eyeFromWorld
+    NormalEncoding normalEncoding = NormalEncoding::signedFloat;  // need not be of length one
     ImageView motion;                    // optional, for `temporal`: where each pixel's surface was, two floats, sampled usage, `size`
     float motionScale[2] = {1, 1};       // motion times this: px from here to last frame's position, y down. Motion in UV:
                                          // {width, height}; in NDC with y up: {width/2, -height/2}; from the past: negated
@@ -193,12 +193,12 @@ struct Frame {
     uint64_t index = 0;                  // counts frames
 };
 
-// Visibility. The image is the context's; it holds what it says until the context has recorded framesInFlight more frames. All null unless
-// status is ok. (A method that makes bent normals will say so in MethodInfo, and a second image of this kind will follow here.)
+// Visibility. The image is the context's; it holds what it says until the context has recorded framesInFlight more frames, and you may leave it
+// in any layout. All null unless status is ok. (A method that makes bent normals will say so in MethodInfo, and a second image of this kind will follow here.)
 struct Output {
-    Status status = Status::invalid;
+    Status status = Status::invalid;     // ok, or a line in the log says why not
     VkImage image = VK_NULL_HANDLE;      // DeviceDesc::format, Frame::size less guard bands; usage sampled, transfer source and destination
-    VkImageView view = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;   // 2D, one mip
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL: reads in compute and fragment shaders need no barrier
 };
 Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept;

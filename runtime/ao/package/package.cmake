@@ -1,0 +1,57 @@
+# What is installed: the three rooms gpu, graph and ao as one archive and one shared library, the public header, and what
+# find_package(Obscura), pkg-config and dpkg want to know. Both libraries are made of the same objects. Neither needs anything
+# but the C++ runtime: shaders are embedded as SPIR-V, fmt is taken as headers, and the host brings the Vulkan loader.
+set(OBSCURA_SUMMARY "Ambient-obscurance methods for Vulkan 1.3")
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# A device of our own wants the loader; a host's does not.
+set(objects)
+foreach(room gpu graph ao)
+  list(APPEND objects $<FILTER:$<TARGET_OBJECTS:obscura_${room}>,EXCLUDE,/\(device_create|loader\)\\.cpp\\.o>)
+endforeach()
+add_library(obscura_ao_static STATIC ${objects})
+add_library(obscura_ao_shared SHARED ${objects})
+set(exports ${CMAKE_CURRENT_LIST_DIR}/exports.map)
+target_link_options(obscura_ao_shared PRIVATE -Wl,--version-script=${exports} $<$<NOT:$<BOOL:${OBSCURA_SANITIZE}>>:-Wl,--no-undefined>)
+set_target_properties(obscura_ao_shared PROPERTIES LINK_DEPENDS ${exports} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+foreach(kind static shared)
+  set_target_properties(obscura_ao_${kind} PROPERTIES OUTPUT_NAME obscura-ao EXPORT_NAME ao_${kind} LINKER_LANGUAGE CXX)
+  target_compile_features(obscura_ao_${kind} INTERFACE cxx_std_17)
+  target_link_libraries(obscura_ao_${kind} INTERFACE Vulkan::Headers)
+  add_dependencies(obscura_ao_${kind} obscura_gpu obscura_graph obscura_ao)
+endforeach()
+
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Obscura)
+install(TARGETS obscura_ao_static obscura_ao_shared EXPORT Obscura INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/ao/include/obscura DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT Obscura NAMESPACE Obscura:: FILE ObscuraTargets.cmake DESTINATION ${config_folder})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/ObscuraConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfig.cmake INSTALL_DESTINATION ${config_folder})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfigVersion.cmake DESTINATION ${config_folder})
+
+file(RELATIVE_PATH PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" PC_PREFIX "${PC_PREFIX}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/obscura-ao.pc.in ${CMAKE_CURRENT_BINARY_DIR}/obscura-ao.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/obscura-ao.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libobscura-ao-dev RENAME copyright)
+install(FILES ${PROJECT_SOURCE_DIR}/runtime/ao/NOTICES.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libobscura-ao-dev)
+
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_NAME libobscura-ao-dev)
+  set(CPACK_PACKAGE_VENDOR Obscura)
+  set(CPACK_PACKAGE_CONTACT "The Obscura authors <obscura@example.org>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${OBSCURA_SUMMARY}")
+  set(CPACK_PACKAGE_DESCRIPTION "Libraries (static and shared), header, CMake package and pkg-config file. Depth in, visibility out.")
+  set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR})
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)          # finds libc6, libgcc-s1, libstdc++6 and their versions
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS libvulkan-dev)  # the header includes Vulkan's
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, pkg-config")
+  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+  include(CPack)
+endif()

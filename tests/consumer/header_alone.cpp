@@ -1,0 +1,8 @@
+#include "obscura/ao.h"
+#include "obscura/ao.h"  // twice does no harm
+
+obscura::ao::Output touch(obscura::ao::Context* context, VkCommandBuffer cmd) {
+    obscura::ao::Frame frame;
+    obscura::ao::setMethod(context, "hbao", {});
+    return obscura::ao::record(context, cmd, frame);
+}

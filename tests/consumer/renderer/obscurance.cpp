@@ -1,0 +1,40 @@
+#include "obscurance.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <obscura/ao.h>
+
+namespace ao = obscura::ao;
+
+Obscurance::Obscurance(const Renderer& renderer) {
+    ao::DeviceDesc desc;
+    desc.instance = renderer.instance;
+    desc.physicalDevice = renderer.physicalDevice;
+    desc.device = renderer.device;
+    desc.queueFamily = renderer.queueFamily;
+    desc.getInstanceProcAddr = vkGetInstanceProcAddr;
+    desc.framesInFlight = Renderer::kFrames;
+    desc.format = ao::VisibilityFormat::r8;
+    desc.log = [](void*, ao::Severity, const char* line) { std::fprintf(stderr, "%s\n", line); };
+    ao::create(desc, &m_context);
+}
+
+Obscurance::~Obscurance() { ao::destroy(m_context); }
+
+bool Obscurance::use(const char* method) {
+    ao::MethodSettings settings;
+    settings.falloff = {ao::FalloffKind::quadratic, 1.0f};
+    return ao::setMethod(m_context, method, settings) == ao::Status::ok;
+}
+
+Obscurance::Picture Obscurance::record(VkCommandBuffer cmd, const Renderer& renderer) {
+    ao::Frame frame;
+    frame.size = renderer.size;
+    std::copy_n(renderer.camera.projection, 16, frame.projection);
+    frame.depth = {renderer.depth, renderer.depthView, VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    frame.index = renderer.frame;
+    const ao::Output output = ao::record(m_context, cmd, frame);
+    if (output.status != ao::Status::ok) return {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
+    return {output.image, output.layout};
+}
