@@ -70,7 +70,8 @@ void drawParameters(ao::Values& values) {
             if (ImGui::SliderInt(label.c_str(), &whole, int(parameter.minimum), int(parameter.maximum))) values.set(parameter.id, float(whole));
         } else {
             // Ranges over several powers of ten need a slider that gives each of them room.
-            const bool wide = parameter.minimum > 0.0f && parameter.maximum / parameter.minimum > 50.0f;
+            const float least = parameter.minimum > 0.0f ? parameter.minimum : parameter.initial;
+            const bool wide = least > 0.0f && parameter.maximum / least > 50.0f;
             if (ImGui::SliderFloat(label.c_str(), &value, parameter.minimum, parameter.maximum, "%.4g", wide ? ImGuiSliderFlags_Logarithmic : 0))
                 values.set(parameter.id, value);
         }

@@ -21,6 +21,6 @@ private:
 // What a method that can do without has of them. Named as renderers and layersOf() look for it.
 inline constexpr Parameter kDepthLayers{"depth_layers", "", 0, 3, 0, true, {kLayerChoices, 4},
                                         "What is read of what lies behind the visible surface, so that things end where they do; each more costs geometry passes."};
-inline constexpr Parameter kSheet{"sheet", "m", 0, 10, 0.05f, false, {}, "How thick open surfaces are where depth layers are read: those that no back face follows."};
+inline constexpr Parameter kSheet{"sheet", "m", 0, 100, 0.05f, false, {}, "How thick open surfaces are where depth layers are read: those that no back face follows."};
 
 }  // namespace obscura::ao

@@ -58,7 +58,7 @@ Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason
     for (int row = 0; row < 3; ++row) block.rows[row] = {m[row], m[4 + row], m[8 + row], m[12 + row]};
     const uint32_t mask = dense ? cells - 1 : ~0u;
     block.shift = {uint32_t(volume.origin[0]) & mask, uint32_t(volume.origin[1]) & mask, uint32_t(volume.origin[2]) & mask, dense ? cells : 0};
-    block.anchor = {float(volume.origin[0]) / scale, float(volume.origin[1]) / scale, float(volume.origin[2]) / scale, 1.0f / scale};
+    block.anchor = {0.0f, 0.0f, 0.0f, 1.0f / scale};
     return Status::ok;
 }
 

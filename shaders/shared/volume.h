@@ -9,7 +9,7 @@ OBSCURA_SHARED_BEGIN
 struct Volume {
     vec4 rows[3];  // (eye-space point, 1) -> cells from the window's lowest corner
     uvec4 shift;   // xyz: the lowest cell modulo the side; w: cells a side, a power of two; 0: a NanoVDB grid, see below
-    vec4 anchor;   // xyz: the lowest corner, metres of the world, for noise that stays where it is; w: metres a cell
+    vec4 anchor;   // w: metres a cell; the rest is 0
 };
 OBSCURA_SHARED_SIZE(Volume, 80);
 

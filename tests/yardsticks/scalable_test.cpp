@@ -32,7 +32,7 @@ TEST_F(Scalable, theSumBesideAWall) {
                 const int x = std::clamp(int(100 + int(l * std::cos(angle))), 0, int(room.width) - 1), row = std::clamp(int(y) + int(l * std::sin(angle)), 0, int(room.height) - 1);
                 const glm::dvec3 v = glm::dvec3(pointAt(room, uint32_t(x), uint32_t(row))) - glm::dvec3(p);
                 const double vv = glm::dot(v, v), f = std::max(radius * radius - vv, 0.0);
-                expected += f * f * f * std::max((v.y - bias) / (0.01 + vv), 0.0) / 25600.0;
+                expected += f * f * f * std::max((v.y - bias) / (0.0025 * radius * radius + vv), 0.0) / 25600.0;
             }
         expected = std::min(expected * 5.0 * 0.5 / std::pow(radius, 6.0), 1.0);
         for (uint32_t x = 92; x < 108; ++x) found += picture[size_t(y - room.guard) * room.visibleWidth() + x - room.guard] / 16.0;
@@ -44,7 +44,7 @@ TEST_F(Scalable, theSumBesideAWall) {
 
 TEST_F(Scalable, intensityScalesWhatIsBlocked) {
     const Room room = roomOf({floor(), wall()});
-    const double once = mean(run(room, values({{"intensity", 0.2f}, {"denoise", 0}}), "quadratic:1")), twice = mean(run(room, values({{"intensity", 0.4f}, {"denoise", 0}}), "quadratic:1"));
+    const double once = mean(run(room, values({{"intensity", 0.1f}, {"denoise", 0}}), "quadratic:1")), twice = mean(run(room, values({{"intensity", 0.2f}, {"denoise", 0}}), "quadratic:1"));
     EXPECT_NEAR(twice, 2.0 * once, 0.03 * once);
 }
 

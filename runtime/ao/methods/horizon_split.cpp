@@ -78,6 +78,9 @@ const MethodInfo kInfo{"horizon_split",
                        {kParameters, std::size(kParameters)},
                        {kPresets, std::size(kPresets)}};
 
+// Words of horizons to a row of their image, whose sides thus stay within what devices allow for very wide and very high pictures too.
+uint32_t wordColumns(const shared::uvec2& visible) { return visible.x > 8192 ? 1 : visible.y > 4096 ? 6 : 2; }
+
 class HorizonSplit final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
@@ -107,9 +110,9 @@ public:
         if (term == kNormalRays || term == kMarching) constants.rays = std::max(constants.rays, 1u);
 
         const gpu::ImageDesc picture{VK_FORMAT_R16_SFLOAT, visible.x, visible.y};
-        const uint32_t words = (constants.directions / (side * side) + 3) / 4;  // four horizons each, two words beside each other
+        const uint32_t words = constants.rays ? (constants.directions / (side * side) + 3) / 4 : 0, columns = wordColumns(visible);  // four horizons each
         const graph::ImageId horizons = graph.image("horizon_split.horizon sines",
-            {VK_FORMAT_R32_UINT, constants.rays ? visible.x * std::min(words, 2u) : 1, constants.rays ? visible.y * ((words + 1) / 2) : 1});
+            {VK_FORMAT_R32_UINT, words ? visible.x * std::min(words, columns) : 1, words ? visible.y * ((words + columns - 1) / columns) : 1});
         graph::ImageId result = graph.image("horizon_split.below horizon", picture);
         Constants tracing = constants;
         if (term == kMarching) tracing.steps = 0;  // a horizon nobody looks for stays at 0, and the rays take the whole hemisphere

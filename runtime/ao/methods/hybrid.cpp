@@ -25,7 +25,7 @@ struct Trace {
     uint32_t side;  // of the interleaving tile
 };
 
-constexpr float kGrain = 0.1f;  // metres a cell of the noise
+constexpr float kGrain = 1.0f;  // cells a side of the noise's
 
 const Parameter kParameters[] = {
     {"rays", "", 8, 128, 32, true, {}, "Rays a pixel of the map; cost grows with rays x steps."},
@@ -71,7 +71,7 @@ public:
         graph::ImageId map = graph.image("hybrid.map", {VK_FORMAT_R16_SFLOAT, width, height});
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
         const Trace trace{inputs.falloff, sharedOut(values.count("rays"), side), values.count("steps"), scale, std::cos(values["spread"] * 1.5707963f), values["offset"],
-                          values["jitter"], 1.0f / kGrain, side};
+                          values["jitter"], kGrain, side};
         graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)]).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits)
             .read(inputs.depth).read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
         if (side > 1) map = m_gather.addMap(graph, inputs, map, receivers, scale, side);

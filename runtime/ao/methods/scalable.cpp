@@ -25,9 +25,9 @@ const char* const kBlurs[] = {"none", "depth", "surface"};
 const Parameter kParameters[] = {
     {"samples", "", 1, 100, 9, true, {}, "Samples on the spiral; cost grows with them."},
     {"turns", "", 1, 64, 7, true, {}, "Turns of the spiral; prime, so that samples do not line up."},
-    {"intensity", "", 0, 10, 1, false, {}, "How dark what is blocked becomes, sigma."},
+    {"intensity", "m", 0, 1000, 1, false, {}, "How dark what is blocked becomes, sigma; a length, since the published sum is one over a length."},
     {"radius_scale", "", 0.1f, 4, 1, false, {}, "How much longer the radius is than the falloff asks for."},
-    {"bias", "m", 0, 1, 0.01f, false, {}, "How far above the tangent plane a sample must lie; hides facets, loses contact."},
+    {"bias", "m", 0, 100, 0.01f, false, {}, "How far above the tangent plane a sample must lie; hides facets, loses contact."},
     {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "Over the noise: rows and columns of equal depth as published, or 5x5 along the surface."},
 };
 const Setting kDense[] = {{"samples", 32}, {"turns", 17}};
@@ -68,9 +68,10 @@ public:
             .constants(constants).dispatch(visible.x, visible.y);
         if (values.count("denoise") == kSurface) return m_denoise.add(graph, inputs, visibility, "scalable.surface blur");
         for (uint32_t vertical = 0; vertical < (values.count("denoise") == kNone ? 0u : 2u); ++vertical) {
+            const struct { uint32_t vertical; float radius; } pass{vertical, constants.radius};
             const graph::ImageId blurred = graph.image("scalable.blur", graph.desc(visibility));
             graph.pass("scalable.blur", m_blur).read(inputs.viewBlock).read(inputs.depth).read(visibility).write(blurred)
-                .constants(vertical).dispatch(visible.x, visible.y);
+                .constants(pass).dispatch(visible.x, visible.y);
             visibility = blurred;
         }
         return visibility;

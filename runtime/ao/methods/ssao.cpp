@@ -29,7 +29,7 @@ const Parameter kParameters[] = {
     {"samples", "", 4, 256, 64, true, {}, "Points in the hemisphere; cost grows with them."},
     {"kernel", "", 0, 1, 0, true, {kKernels, 2}, "How points lie: as published, or cosine-weighted and as far out as the falloff counts."},
     {"radius_scale", "", 0.1f, 4, 1, false, {}, "How much longer all points are drawn out."},
-    {"bias", "m", 0, 1, 0.025f, false, {}, "How much nearer the depth buffer must be to block a point; hides facets, loses contact."},
+    {"bias", "m", 0, 100, 0.025f, false, {}, "How much nearer the depth buffer must be to block a point; hides facets, loses contact."},
     {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "Over the 4x4 noise tile: the mean of 4x4 as published, or along the surface."},
 };
 const Setting kFast[] = {{"samples", 16}};

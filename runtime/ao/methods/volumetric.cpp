@@ -27,7 +27,7 @@ const Parameter kParameters[] = {
     {"lines", "", 1, 64, 9, true, {}, "Lines of sight through the ball; cost grows with them."},
     {"solid", "", 0, 2, kHalf, true, {kSolids, 3}, "What is measured: the ball around the pixel, which needs no normal, its half above the surface, or the ball that touches the surface there."},
     {"radius_scale", "", 0.1f, 4, 1, false, {}, "How much larger the ball is than the falloff asks for."},
-    {"thickness", "m", 0.001f, 1000, 1000, false, {}, "How thick everything is taken to be; as good as endless as published."},
+    {"thickness", "m", 0.001f, 1e6f, 1000, false, {}, "How thick everything is taken to be; as good as endless as published."},
     {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
 };
 const Setting kBallAlone[] = {{"solid", kBall}};

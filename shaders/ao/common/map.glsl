@@ -47,6 +47,15 @@ bool receive(View view, ivec2 p, int every, out vec3 here, out vec3 n) {
     return !isSky(view, z);
 }
 
+// Which cell of a lattice that rests in the world a place on a surface lies in, the lattice's `grain` cells of the volume a side. Looked up a
+// little off the surface: floors and walls like to stand where cells meet, and there rounding would shuffle noise. What lies far from the
+// world's origin is counted in integers.
+const float kOffSurface = 0.31;  // cells
+ivec3 latticeCell(Volume v, vec3 place, vec3 normal, float grain) {
+    float side = v.shift.w == 0u ? 1024.0 : float(v.shift.w);
+    return ivec3(mod(place + kOffSurface * normal + vec3(v.shift.xyz & 1023u), side) / grain);
+}
+
 // Three numbers in [0,1) from a lattice cell [Jarzynski and Olano 2020, pcg3d].
 vec3 cellNoise(ivec3 cell) {
     uvec3 v = uvec3(cell) * 1664525u + 1013904223u;

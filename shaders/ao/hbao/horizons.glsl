@@ -95,7 +95,7 @@ void main() {
     float leastRise = sampleTest != 0u ? sinBias : -1.0;
 
     float reach = min(rho.reach * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z), maxPixels);
-    int tile = (texel.y & 3) * 4 + (texel.x & 3);
+    int tile = (p.y & 3) * 4 + (p.x & 3);
     vec3 shift = frameShift(view);
     vec2 noise = side > 1u ? pixelNoise(p).xy : (vec2(kRotation[tile], kOffset[tile]) + 0.5) / 16.0;
     float rotation = fract(noise.x + shift.x);

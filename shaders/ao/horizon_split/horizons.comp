@@ -56,7 +56,7 @@ void main() {
         return;
     }
     Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), offset);
-    Noise noise = noiseAt(view, texel);
+    Noise noise = noiseAt(view, p);
     Lens lens = lensOf(view);
     vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
     Steps walk = stepsOf(steps, radius, spacing, horizonThickness);

@@ -29,9 +29,9 @@ const float kNextStep = 0.61803399, kNextNormal = 0.75487767;
 struct Noise {  // each in [0,1)
     float rotation, step, normal;
 };
-Noise noiseAt(View view, ivec2 texel) {
-    int tile = (texel.y & 3) * 4 + (texel.x & 3);
-    vec3 noise = side > 1u ? pixelNoise(texel) : (vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0;
+Noise noiseAt(View view, ivec2 p) {
+    int tile = (p.y & 3) * 4 + (p.x & 3);
+    vec3 noise = side > 1u ? pixelNoise(p) : (vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0;
     noise = fract(noise + frameShift(view));
     return Noise(noise.x, noise.y, noise.z);
 }
@@ -73,7 +73,11 @@ Steps stepsOf(uint count, float radius, float spacing, float thickness) {
 }
 float metresAt(Steps walk, float t) { return walk.radius * t * mix(1.0, t, walk.spacing); }
 
-// H^2 of every direction in 8 bits, four directions a word; words stand beside and below each other in one image.
-ivec2 wordAt(ivec2 p, uint word, uvec2 visible) { return p + ivec2(uvec2(word & 1u, word >> 1) * visible); }
+// H^2 of every direction in 8 bits, four directions a word; words stand beside and below each other in one image, as many to a row as
+// wordColumns() of the method's file says.
+ivec2 wordAt(ivec2 p, uint word, uvec2 visible) {
+    uint columns = visible.x > 8192u ? 1u : visible.y > 4096u ? 6u : 2u;
+    return p + ivec2(uvec2(word % columns, word / columns) * visible);
+}
 
 #endif

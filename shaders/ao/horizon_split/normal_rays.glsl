@@ -34,7 +34,7 @@ void main() {
         return;
     }
     Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), offset);
-    Noise noise = noiseAt(view, texel);
+    Noise noise = noiseAt(view, p);
     Space space = spaceOf(view, origin);
     vec3 up = towards(space, origin.n);
     Steps walk = stepsOf(steps, radius, spacing, rayThickness);

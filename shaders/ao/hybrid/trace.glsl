@@ -14,7 +14,7 @@ layout(push_constant) uniform Constants {
     float cone;      // cosine of the half angle that rays keep to
     float offset;    // of their origin along the normal, cells
     float jitter;    // 1: steps are shifted for each ray; 0: half a step
-    float grain;     // cells of the noise a metre
+    float grain;     // cells a side of the noise's
     uint side;       // of the tile whose pixels share out the rays; 1: each traces all
 };
 
@@ -38,7 +38,7 @@ void main() {
     vec3 receiver = cellOf(volume, here);
     vec3 origin = receiver + offsetCells * normal;
     // Noise of the place, not of the pixel: it rests on the surface while the camera moves.
-    vec3 xi = fract(cellNoise(ivec3(floor((receiver * metres + volume.anchor.xyz) * grain))) + frameShift(view));
+    vec3 xi = fract(cellNoise(latticeCell(volume, receiver, normal, grain)) + frameShift(view));
     vec3 tangent, bitangent;
     around(normal, tangent, bitangent);
 

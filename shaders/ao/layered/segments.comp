@@ -125,7 +125,7 @@ void main() {
     here.n = unpackNormal(own.y);
     if (dot(here.n, here.v) < 0.0) here.n = -here.n;
 
-    vec2 noise = fract(tileNoise(uvec2(texel), side) + frameShift(view).xy);
+    vec2 noise = fract(tileNoise(uvec2(p), side) + frameShift(view).xy);
     float reach = min(rho.reach * view.pixelsPerMetre / here.scale, maxPixels);
     vec3 tangent = normalize(vec3(1, 0, 0) - here.v * here.v.x), across = cross(tangent, here.v);
     float nv = dot(here.n, here.v), blocked = 0.0, measure = 0.0;

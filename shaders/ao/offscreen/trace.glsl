@@ -49,7 +49,7 @@ void main() {
     vec3 up = cellsAlong(volume, n) * metres;
     vec3 receiver = cellOf(volume, here);
     vec3 origin = receiver + offsetCells * up, start = toPixels(lens, here + lift * n);
-    vec3 xi = fract(cellNoise(ivec3(floor((receiver + volume.anchor.xyz / metres) / grain))) + frameShift(view));
+    vec3 xi = fract(cellNoise(latticeCell(volume, receiver, up, grain)) + frameShift(view));
     vec3 tangent, bitangent;
     around(up, tangent, bitangent);
     vec3 tangentPixels = toPixels(lens, eyeAlong(volume, tangent)), bitangentPixels = toPixels(lens, eyeAlong(volume, bitangent)), upPixels = toPixels(lens, n);

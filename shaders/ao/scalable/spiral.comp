@@ -19,10 +19,10 @@ layout(push_constant) uniform Constants {
 };
 layout(constant_id = 0) const bool kQuads = true;
 
-const float kEpsilon = 0.01;       // m^2
+const float kEpsilon = 0.0025;     // squared radii; lengths are published in metres, here they are those for a radius of 2 m
 const float kFinest = 3.0;         // log2 of px up to which level 0 is read
 
-const float kSameDepth = 0.02;     // metres between neighbours that are averaged
+const float kSameDepth = 0.01;     // radii between neighbours that are averaged
 
 shared vec2 quads[8][8];  // visibility and depth, of quads of 2x2
 
@@ -32,7 +32,8 @@ float visibilityAt(View view, ivec2 texel, float z) {
     vec3 here = eyePosition(view, vec2(texel) + 0.5, z), n = unpackNormal(imageLoad(normals, texel).x);
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     float reach = radius * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z);
-    float spin = float((3 * texel.x ^ texel.y + texel.x * texel.y) * 10 & 0xffff) + 6.28318531 * frameShift(view).x;  // radians: as good as random
+    ivec2 p = texel - ivec2(view.guard);
+    float spin = float((3 * p.x ^ p.y + p.x * p.y) * 10 & 0xffff) + 6.28318531 * frameShift(view).x;  // radians: as good as random
     float sum = 0.0, part = 1.0 / float(samples);
     for (uint i = 0u; i < samples; ++i) {
         float alpha = (float(i) + 0.5) * part, angle = alpha * float(turns) * 6.28318531 + spin, l = alpha * reach;
@@ -40,7 +41,7 @@ float visibilityAt(View view, ivec2 texel, float z) {
         ivec2 q = clamp(texel + ivec2(l * vec2(cos(angle), sin(angle))), ivec2(0), last);
         vec3 v = eyePosition(view, vec2(q) + 0.5, imageLoad(depths, mipTexel(padded, q, level)).x) - here;
         float vv = dot(v, v), f = max(r2 - vv, 0.0);
-        sum += f * f * f * max((dot(v, n) - off) / (kEpsilon + vv), 0.0);
+        sum += f * f * f * max((dot(v, n) - off) / (kEpsilon * r2 + vv), 0.0);
     }
     return max(1.0 - sum * 5.0 * intensity * part / (r2 * r2 * r2), 0.0);
 }
@@ -55,7 +56,7 @@ void main() {
         quads[own.y][own.x] = mine;
         barrier();
         vec2 other = quads[own.y ^ axis][own.x ^ (1 - axis)];
-        mine.x = kQuads && abs(other.y - mine.y) < kSameDepth ? 0.5 * (mine.x + other.x) : mine.x;
+        mine.x = kQuads && abs(other.y - mine.y) < kSameDepth * radius ? 0.5 * (mine.x + other.x) : mine.x;
         barrier();
     }
     if (all(lessThanEqual(p, last))) imageStore(visibility, p, vec4(min(mine.x, 1.0)));

@@ -30,7 +30,7 @@ void main() {
     }
     vec3 here = eyePosition(view, vec2(texel) + 0.5, z), n = unpackNormal(imageLoad(normals, texel).x);
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
-    float angle = 6.28318531 * fract((float(bayer16(uvec2(texel))) + 0.5) / 16.0 + frameShift(view).x);
+    float angle = 6.28318531 * fract((float(bayer16(uvec2(p))) + 0.5) / 16.0 + frameShift(view).x);
     vec3 turned = vec3(cos(angle), sin(angle), 1e-3), t = normalize(turned - n * dot(turned, n)), b = cross(n, t);
     float blocked = 0.0;
     for (uint i = 0u; i < samples; ++i) {

@@ -33,7 +33,7 @@ void main() {
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     float reach = halfWindow(view, box, z), height = boxHeight(view, box, z), blocked = 0.0, count = 0.0;
     // Few lines differ from pixel to pixel over a 4x4 tile, for a blur to gather; many points need no such thing.
-    float shift = lines != 0u ? float(bayer16(uvec2(texel))) * float(samples) : 0.0;
+    float shift = lines != 0u ? float(bayer16(uvec2(p))) * float(samples) : 0.0;
     for (uint i = 0u; i < samples; ++i) {
         vec2 at = pixel + (2.0 * fract(0.5 + (float(i) + shift) * kNext) - 1.0) * reach;
         ivec2 q = clamp(ivec2(at), ivec2(0), ivec2(view.size) - 1);

@@ -43,7 +43,7 @@ void main() {
     float scale = view.pixelsPerMetre / (orthographic ? 1.0 : max(-centre.z, 0.05 * z)) * r;  // px of the radius
     vec2 middle = solid == 2u ? pixelOf(view, vec3(centre.xy, min(centre.z, -0.05 * z))) : vec2(texel) + 0.5;
     float widens = orthographic || solid == 0u ? 0.0 : 1.0 / max(depthOf, 0.05 * z);
-    float turn = 6.28318531 * fract((float(bayer16(uvec2(texel))) + 0.5) / 16.0 + frameShift(view).x);
+    float turn = 6.28318531 * fract((float(bayer16(uvec2(p))) + 0.5) / 16.0 + frameShift(view).x);
     float whole = 0.0, occupied = 0.0;
     for (uint i = 0u; i < lines; ++i) {
         float angle = turn + 2.39996323 * float(i);
