@@ -156,6 +156,15 @@ TEST(Bench, tableMarksTheBestAndStandsBetweenTheMarks) {
     EXPECT_NE(all.find("| dear x=2 |"), std::string::npos);
     EXPECT_NE(brief.find("| **slow x=1** |"), std::string::npos);
     EXPECT_EQ(brief.find("dear"), std::string::npos);
+    const std::string told = briefTable(results({row("hbao", "", 1.0, 0.08, true), row("layered", "", 2.0, 0.04), row("hybrid", "", 3.0, 0.09), row("gtao", "", 4.0, 0.09, true)}));
+    EXPECT_NE(told.find("(yardstick) | Bavoil, Sainz, Dimitrov 2008 | depth, normals, (layers) | 1.00 |"), std::string::npos) << told;
+    EXPECT_NE(told.find("| **layered** | our own | depth, normals, (layers) |"), std::string::npos);
+    EXPECT_NE(told.find("| depth, normals, voxels | 3.00 |"), std::string::npos);
+    EXPECT_NE(told.find("| Jimenez, Wu, Pesce, Jarabo 2016; XeGTAO, Strugar, McCalla 2021 |"), std::string::npos);
+    EXPECT_EQ(citation("Timonen: Screen-Space Far-Field, HPG 2013, section 5"), "Timonen 2013");
+    EXPECT_EQ(citation("Mittring: Finding Next Gen, CryEngine 2, SIGGRAPH 2007 courses; hemisphere form: de Vries, LearnOpenGL"),
+              "Mittring 2007; hemisphere form: de Vries, LearnOpenGL");
+    EXPECT_EQ(citation(""), "");
     const std::string page = std::string("before\n") + kTableBegin + "\nold\n" + kTableEnd + "\nafter\n";
     EXPECT_EQ(withTable(page, "new\n", "x.md"), std::string("before\n") + kTableBegin + "\nnew\n" + kTableEnd + "\nafter\n");
     EXPECT_THROW(withTable("before\n", "new\n", "x.md"), app::Complaint);

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "obscura/ao.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,6 +76,19 @@ TEST(Rooms, openVdbStaysInOneSourceFile) {
 TEST(Rooms, thePublicHeaderNeedsOnlyVulkan) {
     for (const auto& [file, header] : includes(kRoot / "runtime/ao/include"))
         EXPECT_TRUE(header == "cstddef" || header == "cstdint" || header == "vulkan/vulkan_core.h") << header;
+}
+
+TEST(Rooms, eachBeginsWithAReadme) {
+    for (const auto& entry : fs::directory_iterator(kRoot / "runtime"))
+        EXPECT_TRUE(!entry.is_directory() || fs::exists(entry.path() / "README.md")) << entry.path();
+}
+
+TEST(Rooms, theReadmeTellsEveryMethod) {
+    std::ifstream in(kRoot / "README.md");
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    for (const obscura::ao::MethodInfo* info : obscura::ao::methods()) EXPECT_NE(text.find("\n| `" + std::string(info->id) + "` | "), std::string::npos) << info->id;
+    EXPECT_NE(text.find("(content/methods.jpg)"), std::string::npos);
+    EXPECT_TRUE(fs::exists(kRoot / "content/methods.jpg"));
 }
 
 TEST(Rooms, topLevelHoldsWhatWasAgreed) {

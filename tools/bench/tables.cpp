@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "app/complaint.h"
 #include "front.h"
+#include "obscura/ao.h"
 #include "scaling.h"
 
 namespace obscura::bench {
@@ -21,7 +23,7 @@ void addNew(std::vector<T>& list, const T& value) {
 
 // One candidate over all shots of a size with a falloff.
 struct Line {
-    std::string label;
+    std::string label, method;
     bool plain = false, yardstick = false, best = false;  // default preset; best: no other beats it
     double logTime = 0.0, p95 = 0.0, bytes = 0.0, world = 0.0, screen = 0.0, flicker = 0.0;
     size_t rows = 0, worlds = 0, screens = 0, flickers = 0;
@@ -52,7 +54,7 @@ std::vector<Table> tablesOf(const Results& results) {
             if (fmt::format("{} x {}", row.width, row.height) != table.size || row.falloff != table.falloff) continue;
             auto line = std::find_if(table.lines.begin(), table.lines.end(), [&](const Line& l) { return l.label == row.label(); });
             if (line == table.lines.end()) {
-                line = table.lines.insert(table.lines.end(), Line{row.label(), row.preset == "default" && row.settings.empty(), row.yardstick});
+                line = table.lines.insert(table.lines.end(), Line{row.label(), row.method, row.preset == "default" && row.settings.empty(), row.yardstick});
                 line->scenes.assign(table.places.size(), "");
             }
             ++line->rows;
@@ -79,14 +81,29 @@ std::vector<Table> tablesOf(const Results& results) {
 
 std::string mean(double sum, size_t count) { return count ? fmt::format("{:.4f}", sum / double(count)) : ""; }
 
+// What a method cannot do without, and in brackets what it reads where there is some.
+std::string inputsOf(const ao::MethodInfo& info) {
+    std::string text;
+    const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
+    const struct { ao::Needs need; const char* word; } words[] = {{ao::kDepth, "depth"}, {ao::kNormals, "normals"}, {ao::kMotion, "motion"}, {ao::kLayers, "layers"}, {ao::kVolume, "voxels"}};
+    for (const auto& [need, word] : words)
+        if (info.needs & need) add(word);
+    for (const ao::Parameter& parameter : info.parameters)
+        if (parameter.id == std::string("depth_layers")) add("(layers)");
+    return text;
+}
+
 std::string tableText(const Table& table, bool brief) {
-    std::string text = "| method | ms | p95 | MB |", rule = "|---|--:|--:|--:|";
+    std::string text = brief ? "| method | paper | inputs | ms | p95 | MB |" : "| method | ms | p95 | MB |", rule = brief ? "|---|---|---|--:|--:|--:|" : "|---|--:|--:|--:|";
     for (const std::string& place : table.places) text += fmt::format(" eA {} |", place), rule += "--:|";
     text += " eA screen | F_e |\n" + rule + "--:|--:|\n";
     for (const Line& line : table.lines) {
         if (brief && !line.plain && !line.best) continue;
         const std::string name = line.best ? fmt::format("**{}**", line.label) : line.label;
-        text += fmt::format("| {}{} | {:.2f} | {:.2f} | {:.1f} |", name, line.yardstick ? " (yardstick)" : "", line.milliseconds(), line.p95, line.bytes * 1e-6);
+        text += fmt::format("| {}{} |", name, line.yardstick ? " (yardstick)" : "");
+        const ao::MethodInfo* info = brief ? ao::findMethod(line.method.c_str()) : nullptr;
+        if (brief) text += fmt::format(" {} | {} |", !info || !line.plain ? "" : info->paper[0] || !info->needs ? citation(info->paper) : "our own", info ? inputsOf(*info) : "");
+        text += fmt::format(" {:.2f} | {:.2f} | {:.1f} |", line.milliseconds(), line.p95, line.bytes * 1e-6);
         for (const std::string& cell : line.scenes) text += fmt::format(" {} |", cell);
         text += fmt::format(" {} | {} |\n", mean(line.screen, line.screens), mean(line.flicker, line.flickers));
     }
@@ -98,13 +115,29 @@ std::string legend(const Results& r) {
         "ms: median time of the method's own passes, geometric mean over the scenes, {} rounds of {} frames in turns after {} to warm up; p95: 95th percentile over the\n"
         "median, the worst scene's; MB: device memory beyond the frame's own. eA: mean absolute error of visibility against rays through the scene's triangles, {}\n"
         "a pixel; eA screen: against rays through the depth buffer, mean over the scenes.{} Bold: no other is both cheaper and nearer to the truth, on the mean of\n"
-        "the scenes. {}; compare times only inside the table.\n",
+        "the scenes. {}; compare times only inside the table. (layers): read where `depth_layers` says so. Missing normals are reconstructed; any method but\n"
+        "`hybrid` takes voxels with `offscreen`, and motion with `temporal`.\n",
         r.rounds, r.frames, r.warmUp, r.rays,
         r.flickerFrames ? fmt::format(" F_e: flicker of error over {} frames of each scene's flythrough at {} x {}, mean.", r.flickerFrames, r.flickerWidth, r.flickerHeight) : "",
         r.device);
 }
 
 }  // namespace
+
+std::string citation(const std::string& paper) {
+    std::string text;
+    for (size_t at = 0; at < paper.size();) {
+        const size_t end = std::min(paper.find(';', at), paper.size());
+        std::string one = paper.substr(at, end - at);
+        at = end + 1;
+        one.erase(0, one.find_first_not_of(' '));
+        static const std::regex kTitled("([^:]*):.*( (19|20)[0-9][0-9])\\b.*");
+        std::smatch parts;
+        if (std::regex_match(one, parts, kTitled)) one = parts[1].str() + parts[2].str();
+        text += (text.empty() ? "" : "; ") + one;
+    }
+    return text;
+}
 
 std::string markdown(const Results& results) {
     std::string text;

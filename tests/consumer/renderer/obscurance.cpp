@@ -32,7 +32,7 @@ Obscurance::Picture Obscurance::record(VkCommandBuffer cmd, const Renderer& rend
     ao::Frame frame;
     frame.size = renderer.size;
     std::copy_n(renderer.camera.projection, 16, frame.projection);
-    frame.depth = {renderer.depth, renderer.depthView, VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    frame.depth = {renderer.depth, renderer.depthView, VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
     frame.index = renderer.frame;
     const ao::Output output = ao::record(m_context, cmd, frame);
     if (output.status != ao::Status::ok) return {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};

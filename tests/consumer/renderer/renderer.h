@@ -29,7 +29,7 @@ public:
     uint32_t queueFamily = 0;
     VkExtent2D size{};
     Camera camera;
-    VkImage depth = VK_NULL_HANDLE;          // VK_FORMAT_D32_SFLOAT, in SHADER_READ_ONLY_OPTIMAL
+    VkImage depth = VK_NULL_HANDLE;          // VK_FORMAT_D32_SFLOAT, in DEPTH_STENCIL_READ_ONLY_OPTIMAL
     VkImageView depthView = VK_NULL_HANDLE;
     uint64_t frame = 0;
     uint32_t validationMessages = 0;
