@@ -126,5 +126,15 @@ TEST(View, refusesWhatIsNoProjection) {
     EXPECT_NE(std::string(reason).find("guard"), std::string::npos);
 }
 
+// What shaders ask of a device is what DeviceDesc::device says has to be on.
+TEST(Shaders, wantNoFeatureThatTheHeaderDoesNotName) {
+    constexpr uint32_t kCapability = 17, kShader = 1, kExtendedFormats = 49, kQuery = 50;  // SPIR-V's numbers; the query needs no feature
+    const std::set<uint32_t> stated{kShader, kExtendedFormats, kQuery};
+    EXPECT_GT(shaders().size(), 30u);
+    for (const gpu::EmbeddedShader& shader : shaders())
+        for (size_t at = 5; at < shader.spirv.size() && (shader.spirv[at] & 0xffff) == kCapability; at += shader.spirv[at] >> 16)
+            EXPECT_TRUE(stated.count(shader.spirv[at + 1])) << shader.name << " declares capability " << shader.spirv[at + 1];
+}
+
 }  // namespace
 }  // namespace obscura::ao
