@@ -2,11 +2,12 @@
 //
 //   create() adopts your device; record() writes commands into your command buffer: depth and normals in, visibility out.
 //
-// Contract. Nothing is submitted or waited for. After the first frames at a size nothing is allocated. Call record()
-// outside rendering; the compute bind point's pipeline, descriptor sets and push constants are clobbered, nothing else is.
-// Inputs are read in shaders and come back in the layouts you name. No exception leaves; every failure is a Status and one
-// line to your log. A Context is used by one thread at a time; different contexts are independent: there is no global state.
-// Strings, lists and descriptions that you pass are read during the call and may go after it; handles stay yours.
+// Contract. Nothing is submitted or waited for. After the first frames at a size no device memory is allocated and no Vulkan
+// object made, descriptor sets out of pools that are there aside; recording itself works in the heap. Call record() outside
+// rendering; the compute bind point's pipeline, descriptor sets and push constants are clobbered, nothing else is. Inputs are
+// read in shaders and come back in the layouts you name. No exception leaves; every failure is a Status and one line to your
+// log. A Context is used by one thread at a time; different contexts are independent: there is no global state. Strings, lists
+// and descriptions that you pass are read during the call and may go after it; handles stay yours.
 //
 // Space. Eye space: right-handed, camera at the origin looking down -z, y up; lengths in metres (or your unit: the falloff
 // has the same). Pixels count from the upper left. Visibility: 1 open, 0 blocked, linear.
@@ -116,7 +117,8 @@ struct DeviceDesc {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  // the loader's; the library links to none
     uint32_t framesInFlight = 2;         // 1 or more: record() reuses what it used so many calls ago; the GPU is done with that by then
     VisibilityFormat format = VisibilityFormat::r16f;  // of every Output
-    const VkAllocationCallbacks* allocator = nullptr;  // host memory of Vulkan objects; null: the driver's. The struct outlives the context
+    const VkAllocationCallbacks* allocator = nullptr;  // host memory of Vulkan objects; null: the driver's. Must outlive the context.
+                                         // The library's own lists and texts come from operator new, which may throw: that is a Status
     MemoryCallbacks memory;              // device memory; empty: vkAllocateMemory, a handful of images and buffers a method
     void (*log)(void* user, Severity severity, const char* line) = nullptr;  // null: warnings and errors go to stderr
     void* logUser = nullptr;             // comes back to log()
