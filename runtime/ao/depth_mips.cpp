@@ -7,12 +7,16 @@ Status DepthMips::create(gpu::Device& device, const gpu::ShaderLibrary& shaders,
                                                                                                                                   : Status::shaderError;
 }
 
+gpu::ImageDesc DepthMips::desc(VkFormat format, shared::uvec2 size) {
+    const uint32_t width = (size.x + 15) & ~15u, height = (size.y + 15) & ~15u;
+    return width > height ? gpu::ImageDesc{format, width, height + height / 2} : gpu::ImageDesc{format, width + width / 2, height};
+}
+
 graph::ImageId DepthMips::add(graph::Graph& graph, const Inputs& inputs, const char* passName, float range, float fade) {
-    const uint32_t width = (inputs.view.size.x + 15) & ~15u, height = (inputs.view.size.y + 15) & ~15u;
-    const graph::ImageId mips = graph.image(passName, width > height ? gpu::ImageDesc{VK_FORMAT_R32_SFLOAT, width, height + height / 2}
-                                                                         : gpu::ImageDesc{VK_FORMAT_R32_SFLOAT, width + width / 2, height});
+    const shared::uvec2 size = inputs.view.size;
+    const graph::ImageId mips = graph.image(passName, desc(VK_FORMAT_R32_SFLOAT, size));
     const float constants[] = {range, fade};
-    graph.pass(passName, m_reduce).read(inputs.depth).write(mips).constants(constants).dispatch(width / 2, height / 2);
+    graph.pass(passName, m_reduce).read(inputs.depth).write(mips).constants(constants).dispatch((size.x + 15) / 16 * 8, (size.y + 15) / 16 * 8);
     return mips;
 }
 

@@ -10,12 +10,14 @@ namespace obscura::ao {
 class SpansPass {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SpansPass& out);
-    // R32G32B32A32_UINT, view.size, laid out as shaders/ao/common/spans.glsl says. `sheet`: how thick surfaces are that no back face
-    // follows; `assumed`: how thick everything is where the frame has no layers; metres.
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, float sheet, float assumed);
+    // Two spans a texel, R32G32B32A32_UINT, or the first alone, R32G32_UINT: view.size and coarser levels beside it, laid out as
+    // shaders/ao/common/spans.glsl says. `sheet`: how thick surfaces are that no back face follows; `assumed`: how thick everything is
+    // where the frame has no layers; metres.
+    enum class Spans : uint8_t { one, two };
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, float sheet, float assumed, Spans spans = Spans::two);
 
 private:
-    gpu::Program m_pack;
+    gpu::Program m_one[2], m_two[3];  // by the layers that there are
 };
 
 // What a method that can do without has of them. Named as renderers and layersOf() look for it.

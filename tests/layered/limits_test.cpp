@@ -58,7 +58,7 @@ TEST_F(LayeredTest, everySizeAndSkyGiveFiniteValues) {
     const std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::cylinder, {0.2f, 0, -2}, {0.1f, 0, 0}}};
     for (const auto& [width, height, guard] : {std::tuple{8u, 8u, 0u}, {9u, 13u, 0u}, {37u, 21u, 4u}, {64u, 40u, 7u}})
         for (const bool half : {false, true})
-            for (const char* preset : {"default", "fast", "reference"}) {
+            for (const char* preset : {"default", "fast", "quality", "reference"}) {
                 const Room room = frameOf(world, width, height, guard, half);
                 for (const float a : run(room, values({}, preset), "exponential:1")) EXPECT_TRUE(a >= 0.0f && a <= 1.0f) << width << "x" << height << " " << preset;
             }
@@ -78,7 +78,8 @@ TEST_F(LayeredTest, layersThatAreMissingAreDoneWithout) {
     first.second.clear();
     none.second.clear();
     none.thickness.clear();
-    const Picture one = run(first, values({}), "ramp:0.385:1"), bare = run(none, values({}), "ramp:0.385:1");
+    const ao::Values two = values({{"depth_layers", float(ao::LayerUse::second)}});
+    const Picture one = run(first, two, "ramp:0.385:1"), bare = run(none, two, "ramp:0.385:1");
     EXPECT_EQ(one, run(both, values({{"depth_layers", float(ao::LayerUse::first)}}), "ramp:0.385:1"));
     EXPECT_EQ(bare, run(both, values({{"depth_layers", 0}}), "ramp:0.385:1"));
     EXPECT_NE(one, bare);

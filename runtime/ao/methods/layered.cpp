@@ -36,18 +36,18 @@ struct Constants {  // segments.comp
 const Parameter kParameters[] = {
     {"slices", "", 1, 32, 16, true, {}, "Slices of the hemisphere around the view ray; cost grows with slices x steps."},
     {"steps", "", 1, 64, 9, true, {}, "Samples to each side of a slice, each for a stratum out to the falloff's reach. Better raised before slices."},
-    {"depth_layers", "", 0, 3, 2, true, {kLayerChoices, std::size(kLayerChoices)}, "What is read of what lies behind the visible surface; each more costs geometry passes."},
+    {"depth_layers", "", 0, 3, 1, true, {kLayerChoices, std::size(kLayerChoices)}, "What is read of what lies behind the visible surface; each more costs geometry passes."},
     kSheet,
     {"thickness", "m", 0.01f, 1000, 0.5f, false, {}, "How thick everything is taken to be where there are no depth layers."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
     {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
-const Setting kFast[] = {{"steps", 4}, {"depth_layers", float(LayerUse::first)}};
+const Setting kFast[] = {{"steps", 4}};
 const Setting kQuality[] = {{"slices", 12}, {"depth_layers", float(LayerUse::second)}, {"interleave", 1}};
 const Setting kReference[] = {{"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
-    {"default", "18 samples, a slice a pixel, thickness and a second surface of half size.", {}},
-    {"fast", "8 samples, thickness alone: one more geometry pass.", {kFast, std::size(kFast)}},
+    {"default", "18 samples, a slice a pixel, thickness: one more geometry pass.", {}},
+    {"fast", "8 samples.", {kFast, std::size(kFast)}},
     {"quality", "54 samples, three slices a pixel, thickness and a second surface.", {kQuality, std::size(kQuality)}},
     {"reference", "1024 samples, nothing shared out: what the layers hold.", {kReference, std::size(kReference)}},
 };
@@ -64,20 +64,21 @@ public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Layered>();
         if (SpansPass::create(device, shaders, result->m_spans) != Status::ok) return nullptr;
-        for (uint32_t second = 0; second < 2; ++second)
-            if (gpu::Program::compute(device, shaders, "ao/layered/segments.comp", {{0, second}}, result->m_segments[second]) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/layered/segments.comp", {}, result->m_segments[0]) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/layered/segments_two.comp", {}, result->m_segments[1]) != gpu::Status::ok) return nullptr;
         if (gpu::Program::compute(device, shaders, "ao/layered/gather.comp", {}, result->m_gather) != gpu::Status::ok) return nullptr;
         return result;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const graph::ImageId spans = m_spans.add(graph, inputs, values["sheet"], values["thickness"]);
+        const bool two = bool(inputs.layers.second);
+        const graph::ImageId spans = m_spans.add(graph, inputs, values["sheet"], values["thickness"], two ? SpansPass::Spans::two : SpansPass::Spans::one);
         const uint32_t side = tileSide(values), slices = sharedOut(values.count("slices"), side) / (side * side);
         const Constants constants{inputs.falloff, slices, values.count("steps"), values["max_pixels"], side};
         const graph::ImageId parts = graph.image("layered.parts", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
         const graph::ImageId visibility = graph.image("layered.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("layered.segments", m_segments[bool(inputs.layers.second)]).read(inputs.viewBlock).read(spans).write(parts).constants(constants)
+        graph.pass("layered.segments", m_segments[two]).read(inputs.viewBlock).read(inputs.normals).read(spans).write(parts).constants(constants)
             .dispatch(visible.x, visible.y);
         graph.pass("layered.gather", m_gather).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(parts).write(visibility).constants(side)
             .dispatch(visible.x, visible.y);

@@ -12,5 +12,12 @@ ivec2 mipTexel(ivec2 padded, ivec2 q, int level) {
     ivec2 beside = min(level, 1) * padded, along = max(padded - (2 * padded >> level), 0);
     return (q >> level) + (padded.x > padded.y ? ivec2(along.x, beside.y) : ivec2(beside.x, along.y));
 }
+// The other way round: the level at a place, and its texel.
+int mipAt(ivec2 padded, ivec2 place, out ivec2 texel) {
+    int level = 0;
+    for (int i = 1; i < kDepthLevels; ++i) level += int(all(greaterThanEqual(place, mipTexel(padded, ivec2(0), i))));
+    texel = place - mipTexel(padded, ivec2(0), level);
+    return level;
+}
 
 #endif

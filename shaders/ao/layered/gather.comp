@@ -26,19 +26,25 @@ void main() {
         imageStore(visibility, p, vec4(1.0));
         return;
     }
-    vec3 n = unpackNormal(imageLoad(normals, p + guard).x), here = eyePosition(view, vec2(p + guard) + 0.5, z);
+    // A neighbour's distance to this pixel's tangent plane, told in pixels and depth: none of them needs its position.
+    bool orthographic = view.orthographic > 0.5;
+    vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
+    vec2 slope = n.xy * view.unproject.xy;
+    float aside = dot((vec2(p + guard) + 0.5), slope) + dot(n.xy, view.unproject.zw), plane = aside * (orthographic ? 1.0 : z) - n.z * z;
     int reach = int(side) / 2;
     float outer = (side & 1u) != 0u ? 1.0 : 0.5, sharpness = kPlane / z;
     vec2 sum = vec2(0.0);
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
             ivec2 at = p + ivec2(x, y), q = clamp(at, ivec2(0), last);
-            vec3 there = eyePosition(view, vec2(q + guard) + 0.5, imageLoad(depth, q + guard).x);
-            float facing = max(0.0, dot(n, unpackNormal(imageLoad(normals, q + guard).x)));
-            facing *= facing;
+            float there = imageLoad(depth, q + guard).x;
+            float off = (aside + dot(vec2(x, y), slope)) * (orthographic ? 1.0 : there) - n.z * there - plane;
+            // facing^4 / (1 + sharpness off), the normal of no unit length
+            vec3 m = directionOf(imageLoad(normals, q + guard).x);
+            float facing = max(0.0, dot(n, m)), square = dot(m, m);
             facing *= facing;
             float rim = (abs(x) == reach ? outer : 1.0) * (abs(y) == reach ? outer : 1.0);
-            float w = at == q ? rim * facing / (1.0 + sharpness * abs(dot(there - here, n))) : 0.0;
+            float w = at == q ? rim * facing * facing / (square * square * (1.0 + sharpness * abs(off))) : 0.0;
             sum += (x == 0 && y == 0 ? 1.0 : w) * imageLoad(parts, q).xy;
         }
     }

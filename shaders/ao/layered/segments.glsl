@@ -1,0 +1,204 @@
+// Segments of occlusion around each pixel: for every slice and step what the depth layers hold there covers part of the
+// hemisphere, once, with the falloff of where it stands. Formulas in runtime/ao/methods/layered.cpp.
+// In: normals and spans (one of matter, or with TWO_SPANS two), guard band included. Out: what they block and what they could, RG16F.
+#ifndef OBSCURA_SEGMENTS_GLSL
+#define OBSCURA_SEGMENTS_GLSL
+#include "ao/common/spans.glsl"
+#include "ao/common/tile.glsl"
+#include "shared/falloff.h"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
+layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
+#ifdef TWO_SPANS
+#define PACKED uvec4
+layout(set = 0, binding = 2, rgba32ui) uniform readonly uimage2D spans;
+PACKED spansAt(ivec2 at) { return imageLoad(spans, at); }
+Spans matterOf(PACKED texel) { return unpackSpans(texel); }
+#else
+#define PACKED uvec2
+layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D spans;
+PACKED spansAt(ivec2 at) { return imageLoad(spans, at).xy; }
+Spans matterOf(PACKED texel) { return unpackSpan(texel); }
+#endif
+layout(set = 0, binding = 3, rg16f) uniform writeonly image2D parts;
+layout(push_constant) uniform Constants {
+    FalloffBlock falloffBlock;
+    uint slices;    // of this pixel
+    uint steps;     // a side
+    float maxPixels;
+    uint side;      // of the tile whose pixels share the slices out
+};
+
+const float kPi = 3.14159265;
+const float kFlat = 0.1;             // sine of the angle up to which two samples share a plane
+const float kRise = 0.012;           // depths that a surface may rise over a stratum when they do not
+const float kNextStep = 0.61803399;  // slices do not sample in one rhythm
+
+// Which of the tile's slices and steps are a pixel's, in [0,1). Any 4x4 pixels hold 16 once, any 2x2 of them a quarter each: a hash
+// instead has three times the error after the gather.
+vec2 tileNoise(uvec2 p, uint side) {
+    uint nine = p.x % 3u + 3u * (p.y % 3u), sixteen = bayer16(p);
+    vec2 ranks = side == 3u ? vec2(nine, nine % 3u * 3u + nine / 3u) : vec2(sixteen, bitfieldReverse(sixteen) >> 28);
+    return (ranks + 0.5) / (side == 3u ? 9.0 : 16.0);
+}
+
+// The view ray of a place on the slice: points are offset + (F - D) dir from the pixel's own, F their depth and D the pixel's.
+struct Ray {
+    vec2 offset;
+    vec3 dir;
+    float v0, v1;      // dot(offset, v), dot(dir, v)
+    float d0, d1, d2;  // squared distance: d0 + 2 d1 (F-D) + d2 (F-D)^2
+};
+struct Pixel {
+    vec2 ray;       // eye.xy / depth, or nothing when orthographic
+    float scale;    // metres of a difference of rays: depth, or 1
+    float perspective;
+    float depth;
+    vec3 n, v;
+};
+
+Ray rayAt(Pixel here, vec2 aside) {  // aside: difference of rays
+    Ray r;
+    r.offset = aside * here.scale;
+    r.dir = vec3((here.ray + aside) * here.perspective, -1.0);
+    r.v0 = dot(r.offset, here.v.xy);
+    r.v1 = dot(r.dir, here.v);
+    r.d0 = dot(r.offset, r.offset);
+    r.d1 = dot(r.offset, r.dir.xy);
+    r.d2 = dot(r.dir, r.dir);
+    return r;
+}
+float square(Ray r, float f) { return r.d0 + f * (2.0 * r.d1 + f * r.d2); }
+// Cosine of the angle at the pixel between the eye and a point.
+float cosine(Ray r, float f) { return (r.v0 + f * r.v1) * inversesqrt(max(square(r, f), 1e-20)); }
+// Distance to a span: to its nearest point, or to its front.
+float distanceTo(Ray r, float f, float end) { return sqrt(max(square(r, clamp(-r.d1 / r.d2, f, end)), 0.0)); }
+
+// One side of a slice. All integrals are told as parts of the whole side's.
+struct Side {
+    float least, flat_, curved;  // cosine at the hemisphere's end; up to cosine c: flat (1 - c^2) + curved (pi/2 - wave(c)), in 32nds
+    uint covered;
+    float blocked;               // 32nds
+    vec3 before, faced;          // the last sample, from the pixel, and its normal
+    float reached;               // pixels: how far its surface was followed
+};
+// asin c + c sqrt(1 - c^2), to 0.0014.
+float wave(float c) {
+    float c2 = c * c;
+    return c * (2.0109840 + c2 * (-0.4395425 + c2 * (0.2109025 - 0.2115477 * c2)));
+}
+float bitAt(Side side, float c) {
+    c = max(c, side.least);
+    return clamp(side.flat_ * (1.0 - c * c) + side.curved * (0.5 * kPi - wave(c)), 0.0, 32.0);
+}
+void cover(inout Side side, float front, float back, float weight) {
+    uint bits = partsBetween(bitAt(side, front), bitAt(side, back)) & ~side.covered;
+    side.covered |= bits;
+    side.blocked += weight * float(bitCount(bits));
+}
+
+// A span over the stratum from e0 by l to e1: front at depth differences f0, f, f1, `size` long at l. A solid's back stays at its
+// depth, for solids are round, unless that would halve it; a sheet's follows its front.
+void span(inout Side side, FalloffBlock rho, Ray e0, Ray l, Ray e1, float f0, float f, float f1, float size, bool counts) {
+    bool solid = size > 0.0;
+    float b = f + abs(size), b0 = solid ? max(f0 + 0.5 * size, b) : f0 - size, b1 = solid ? max(f1 + 0.5 * size, b) : f1 - size;
+    float w = falloff(rho, distanceTo(l, f, solid ? b : f));
+    float w0 = 0.5 * (w + falloff(rho, distanceTo(e0, f0, solid ? b0 : f0))), w1 = 0.5 * (w + falloff(rho, distanceTo(e1, f1, solid ? b1 : f1)));
+    float front = cosine(l, f), back = cosine(l, b);
+    cover(side, counts ? max(front, cosine(e0, f0)) : 1.0, counts ? min(back, cosine(e0, b0)) : 1.0, w0);
+    cover(side, counts ? max(front, cosine(e1, f1)) : 1.0, counts ? min(back, cosine(e1, b1)) : 1.0, w1);
+}
+
+void main() {
+    View view = viewBlock;  // copies, so that the loops hold them in registers
+    FalloffBlock rho = falloffBlock;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    ivec2 texel = p + ivec2(view.guard), last = ivec2(view.size) - 1, padded = paddedSize(view.size);
+    float z = uintBitsToFloat(spansAt(texel).x);
+    if (isSky(view, z)) {
+        imageStore(parts, p, vec4(0.0, 1.0, 0.0, 0.0));
+        return;
+    }
+    bool orthographic = view.orthographic > 0.5;
+    vec2 pixel = vec2(texel) + 0.5;
+    vec3 position = eyePosition(view, pixel, z);
+    Pixel here;
+    here.ray = pixel * view.unproject.xy + view.unproject.zw;
+    here.scale = orthographic ? 1.0 : z;
+    here.perspective = orthographic ? 0.0 : 1.0;
+    here.depth = z;
+    here.v = towardsEye(view, position);
+    here.n = unpackNormal(imageLoad(normals, texel).x);
+    if (dot(here.n, here.v) < 0.0) here.n = -here.n;
+
+    vec2 noise = fract(tileNoise(uvec2(p), side) + frameShift(view).xy);
+    float reach = min(rho.reach * view.pixelsPerMetre / here.scale, maxPixels);
+    vec3 tangent = normalize(vec3(1, 0, 0) - here.v * here.v.x), across = cross(tangent, here.v);
+    float nv = dot(here.n, here.v), blocked = 0.0, measure = 0.0;
+    for (uint k = 0u; k < slices; ++k) {
+        // Slices lie evenly around the view ray, not on the screen: only then they make up the hemisphere.
+        float turn = kPi * (float(k) + noise.x) / float(slices);
+        vec3 od = tangent * cos(turn) + across * sin(turn);
+        vec2 step = (od.xy * here.scale + (orthographic ? vec2(0.0) : position.xy * od.z)) * view.project.xy;
+        step *= inversesqrt(max(dot(step, step), 1e-20));
+        vec2 stepRay = step * view.unproject.xy;
+        float no = dot(here.n, od), angle = atan(no, nv);
+        float sine = no * inversesqrt(max(no * no + nv * nv, 1e-12));
+        float jitter = noise.y + kNextStep * float(k);
+        for (int s = 0; s < 2; ++s) {
+            float sign = s == 0 ? 1.0 : -1.0;
+            float whole = 0.5 * max(nv + angle * no + sign * 0.5 * kPi * no, 0.0);
+            float scale = 16.0 / max(whole, 1e-6);
+            Side half_ = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0), here.n, 1.0);
+            float place = fract(jitter + 0.5 * float(s));
+            for (uint i = 0u; i < steps; ++i) {
+                float part = 1.0 / float(steps), t0 = float(i) * part, t1 = t0 + part;
+                float e0 = max(t0 * sqrt(t0) * reach, 1.0), e1 = max(t1 * sqrt(t1) * reach, 1.0);
+                float t = t0 + place * part;
+                float l = max(t * sqrt(t) * reach, 1.3);
+                vec2 at = pixel + sign * l * step;
+                bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
+                int level = levelFor(l);
+                ivec2 cell = clamp(ivec2(at), ivec2(0), last) >> level, q = pixelIn(cell, level, last);
+                PACKED packed = spansAt(cell + mipTexel(padded, ivec2(0), level));
+                Spans matter = matterOf(packed);
+                vec3 ns = normalOf(packed);  // its length does not matter
+                Ray ray = rayAt(here, (vec2(q) + 0.5 - pixel) * view.unproject.xy);
+                float zs = matter.first, f = zs - z;
+
+                // The surface goes on in its tangent plane to both ends of the stratum, as far as it is thick. Far only where the
+                // sample before lies in that plane too, for the facets of a relief would rise as spikes; then what that sample
+                // was not followed over is made up for. A sheet that rises out of a hollow fills it: nothing is seen between.
+                vec3 d = vec3(ray.offset, 0.0) + f * ray.dir, from = d - half_.before;
+                float off = dot(ns, from), plane = dot(ns, d);
+                bool flat_ = off * off < kFlat * kFlat * dot(ns, ns) * dot(from, from);
+                bool hollow = off < 0.0 && dot(half_.faced, from) > 0.0 && matter.firstLength < 0.0;
+                Ray ray0 = rayAt(here, sign * min(flat_ ? half_.reached : e0, l) * stepRay), ray1 = rayAt(here, sign * max(e1, l) * stepRay);
+                float most = (flat_ ? 0.5 : kRise) * zs;
+                most = matter.firstLength > 0.0 ? min(matter.firstLength, most) : most;
+                float most0 = hollow ? 0.5 * zs : most;
+                float f0 = clamp((plane - dot(ns.xy, ray0.offset)) / min(dot(ns, ray0.dir), -1e-4), f - most0, f + most0);
+                float end = (plane - dot(ns.xy, ray1.offset)) / min(dot(ns, ray1.dir), -1e-4), f1 = clamp(end, f - most, f + most);
+                half_.before = inside ? d : half_.before;
+                half_.faced = inside ? ns : half_.faced;
+                half_.reached = inside ? (f1 == end ? max(e1, l) : l) : half_.reached;
+                bool above = dot(d, here.n) > 0.001 * length(d);  // the pixel's own plane covers nothing
+                span(half_, rho, ray0, ray, ray1, f0, f, f1, matter.firstLength, inside && above && !isSky(view, zs));
+#ifdef TWO_SPANS
+                float g = matter.second - z;
+                vec3 b = vec3(ray.offset, 0.0) + g * ray.dir;
+                bool behind = dot(b, here.n) > 0.001 * length(b);
+                span(half_, rho, ray0, ray, ray1, g, g, g, matter.secondLength, inside && behind && matter.second > 0.0);
+#endif
+            }
+            blocked += half_.blocked * whole;
+            measure += whole;
+        }
+    }
+    imageStore(parts, p, vec4(blocked / 32.0, measure, 0.0, 0.0) / float(slices));
+}
+
+#endif
