@@ -43,12 +43,12 @@ const Parameter kParameters[] = {
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
     {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
-const Setting kFast[] = {{"steps", 4}};
+const Setting kFast[] = {{"steps", 4}, {"depth_layers", float(LayerUse::none)}};
 const Setting kQuality[] = {{"slices", 12}, {"depth_layers", float(LayerUse::second)}, {"interleave", 1}};
 const Setting kReference[] = {{"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
     {"default", "18 samples, a slice a pixel, thickness: one more geometry pass.", {}},
-    {"fast", "8 samples.", {kFast, std::size(kFast)}},
+    {"fast", "8 samples and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
     {"quality", "54 samples, three slices a pixel, thickness and a second surface.", {kQuality, std::size(kQuality)}},
     {"reference", "1024 samples, nothing shared out: what the layers hold.", {kReference, std::size(kReference)}},
 };

@@ -138,7 +138,9 @@ void main() {
     float reach = min(rho.reach * view.pixelsPerMetre / here.scale, maxPixels);
     vec3 tangent = normalize(vec3(1, 0, 0) - here.v * here.v.x), across = cross(tangent, here.v);
     float nv = dot(here.n, here.v), blocked = 0.0, measure = 0.0;
-    for (uint k = 0u; k < slices; ++k) {
+    // Loops end with their test: where they begin with it, lavapipe runs their bodies once more for nothing.
+    uint k = 0u;
+    while (true) {
         // Slices lie evenly around the view ray, not on the screen: only then they make up the hemisphere.
         float turn = kPi * (float(k) + noise.x) / float(slices);
         vec3 od = tangent * cos(turn) + across * sin(turn);
@@ -148,13 +150,14 @@ void main() {
         float no = dot(here.n, od), angle = atan(no, nv);
         float sine = no * inversesqrt(max(no * no + nv * nv, 1e-12));
         float jitter = noise.y + kNextStep * float(k);
-        for (int s = 0; s < 2; ++s) {
-            float sign = s == 0 ? 1.0 : -1.0;
+        float sign = 1.0;
+        while (true) {
             float whole = 0.5 * max(nv + angle * no + sign * 0.5 * kPi * no, 0.0);
             float scale = 16.0 / max(whole, 1e-6);
             Side half_ = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0), here.n, 1.0);
-            float place = fract(jitter + 0.5 * float(s));
-            for (uint i = 0u; i < steps; ++i) {
+            float place = fract(jitter + (sign > 0.0 ? 0.0 : 0.5));
+            uint i = 0u;
+            while (true) {
                 float part = 1.0 / float(steps), t0 = float(i) * part, t1 = t0 + part;
                 float e0 = max(t0 * sqrt(t0) * reach, 1.0), e1 = max(t1 * sqrt(t1) * reach, 1.0);
                 float t = t0 + place * part;
@@ -193,10 +196,14 @@ void main() {
                 bool behind = dot(b, here.n) > 0.001 * length(b);
                 span(half_, rho, ray0, ray, ray1, g, g, g, matter.secondLength, inside && behind && matter.second > 0.0);
 #endif
+                if (++i >= steps) break;
             }
             blocked += half_.blocked * whole;
             measure += whole;
+            if (sign < 0.0) break;
+            sign = -1.0;
         }
+        if (++k >= slices) break;
     }
     imageStore(parts, p, vec4(blocked / 32.0, measure, 0.0, 0.0) / float(slices));
 }
