@@ -1,10 +1,15 @@
 // The host's door: adopts a device, imports a frame's images into a graph of its own, runs the same passes as the sample.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
+#include "ao/formats.h"
 #include "ao/library.h"
 
 namespace obscura::ao {
@@ -28,6 +33,7 @@ struct Context {
     std::unique_ptr<Library> library;
     gpu::Program narrow;              // r16f to r8, where that is asked for
     std::vector<gpu::Image> outputs;  // a ring, so that the host may still read last frame's
+    bool failed = false;              // the last record(), after its frame had begun
     uint64_t methodBytes = 0;         // device memory that methods took when they were made
     std::optional<Values> values;
     Falloff falloff;
@@ -87,24 +93,53 @@ Given givenBy(const Frame& frame, bool rehearsal) {
     return {rehearsal, is(frame.normals), is(frame.motion), is(frame.layers.thickness), is(frame.layers.second)};
 }
 
+Role depthRole(const Frame& frame) { return frame.depthKind == DepthKind::linear ? Role::linearDepth : Role::deviceDepth; }
+Role normalsRole(const Frame& frame) {
+    return frame.normalEncoding == NormalEncoding::signedFloat    ? Role::signedNormals
+           : frame.normalEncoding == NormalEncoding::unsignedHalf ? Role::unsignedNormals
+                                                                  : Role::packedNormals;
+}
+
 // Whether the frame can be recorded; a line that names the field if not.
-bool sensible(const Context& context, const Frame& frame, const Given& given, shared::View& view) {
+Status sensible(const Context& context, const Frame& frame, const Given& given, shared::View& view) {
+    const gpu::Device& device = *context.device;
     const DepthLayers& layers = frame.layers;
-    const struct { const char* name; bool given; const ImageView& view; } images[] = {{"depth", true, frame.depth}, {"normals", given.normals, frame.normals},
-        {"motion", given.motion, frame.motion}, {"layers.thickness", given.thickness, layers.thickness}, {"layers.second", given.second, layers.second}};
-    for (const auto& image : images)
-        if (image.given && !given.rehearsal && !complete(image.view))
-            return say(context, std::string("Frame::") + image.name + " lacks its image, view, format or layout"), false;
-    if (given.second && !given.thickness) return say(context, "Frame::layers.second is of no use without Frame::layers.thickness"), false;
+    const auto refuse = [&](const std::string& line, Status status = Status::invalid) { return say(context, line), status; };
+    const char* reason = nullptr;
+    if (viewOf(frame, view, reason) != Status::ok) return refuse(reason);
+    const auto finite = [](std::span<const float> list) { return std::all_of(list.begin(), list.end(), [](float value) { return std::isfinite(value); }); };
+    if (!finite(frame.eyeFromWorld)) return refuse("Frame::eyeFromWorld holds a value that is not finite");
+    if (!finite(frame.motionScale)) return refuse("Frame::motionScale holds a value that is not finite");
+    if (std::isnan(frame.skyDepth)) return refuse("Frame::skyDepth is no number");
+    const uint32_t most = device.caps().maxImageSize;
+    if (std::max(frame.size.width, frame.size.height) > most) return refuse("Frame::size: the device allows " + std::to_string(most) + " a side", Status::unsupported);
+    if (given.second && !given.thickness) return refuse("Frame::layers.second is of no use without Frame::layers.thickness");
     const auto isSize = [&](uint32_t side) {
         return layers.secondSize.width == (frame.size.width + side - 1) / side && layers.secondSize.height == (frame.size.height + side - 1) / side;
     };
-    if (given.second && !isSize(1) && !isSize(2)) return say(context, "Frame::layers.secondSize is neither Frame::size nor half of it"), false;
-    const char* reason = nullptr;
-    if (viewOf(frame, view, reason) != Status::ok) return say(context, reason), false;
+    if (given.second && !isSize(1) && !isSize(2)) return refuse("Frame::layers.secondSize is neither Frame::size nor half of it");
+    const struct { const char* name; bool given; const ImageView& view; Role role; VkExtent2D size; } images[] = {
+        {"depth", true, frame.depth, depthRole(frame), frame.size}, {"normals", given.normals, frame.normals, normalsRole(frame), frame.size},
+        {"motion", given.motion, frame.motion, Role::motion, frame.size}, {"layers.thickness", given.thickness, layers.thickness, Role::thickness, frame.size},
+        {"layers.second", given.second, layers.second, Role::second, layers.secondSize}};
+    for (const auto& image : images) {
+        if (!image.given) continue;
+        const std::string field = std::string("Frame::") + image.name;
+        if (!given.rehearsal && !complete(image.view)) return refuse(field + " lacks its image, view, format or layout");
+        const VkFormat format = image.view.format;
+        if (given.rehearsal && format == VK_FORMAT_UNDEFINED) continue;
+        if (!fits(image.role, format)) return refuse(field + " has format " + std::to_string(format) + "; what fits is " + formatsOf(image.role));
+        if (!device.formatSupports(format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT)) return refuse(field + ": the device cannot sample format " + std::to_string(format), Status::unsupported);
+        if (given.rehearsal) continue;
+        // An image does not say its size, but it cannot be smaller than its texels: one left from before a resize is told by that.
+        VkMemoryRequirements needs;
+        device.vk().GetImageMemoryRequirements(device.handle(), image.view.image, &needs);
+        if (needs.size < uint64_t(image.size.width) * image.size.height * leastBytes(format))
+            return refuse(field + " is smaller than " + std::to_string(image.size.width) + " x " + std::to_string(image.size.height));
+    }
     shared::Volume volume;
-    if (frame.volume.buffer && volumeOf(frame.volume, volume, reason) != Status::ok) return say(context, reason), false;
-    return true;
+    if (frame.volume.buffer && volumeOf(frame.volume, volume, reason) != Status::ok) return refuse(reason);
+    return Status::ok;
 }
 
 graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame, const Given& given) {
@@ -186,12 +221,14 @@ Status make(const DeviceDesc& desc, const HostLog& log, Context** context) {
     std::unique_ptr<Context, Destroy> made(new Context);
     made->log = log;
     made->format = desc.format;
-    made->device = gpu::Device::adopt(adopted, error);
-    if (!made->device) return log(("obscura: " + error).c_str()), Status::unsupported;
+    gpu::Status why = gpu::Status::ok;
+    made->device = gpu::Device::adopt(adopted, error, &why);
+    if (!made->device) return log(("obscura: " + error).c_str()), statusOf(why);
     made->outputs.resize(made->device->framesInFlight() + 1);
     made->shaders.add(shaders());
     made->graph = std::make_unique<graph::Graph>(*made->device);
     made->library = std::make_unique<Library>(*made->device, made->shaders);
+    if (!made->library->ready()) return statusOf(made->device->failure());
     if (desc.format == VisibilityFormat::r8)
         if (const gpu::Status status = gpu::Program::compute(*made->device, made->shaders, "ao/common/output_r8.comp", {}, made->narrow); status != gpu::Status::ok)
             return statusOf(status);
@@ -229,6 +266,7 @@ Status choose(Context* context, const char* id, const MethodSettings& settings) 
         }
         values.resolve(*resolve);
     }
+    if (settings.settings.count && !settings.settings.items) return say(*context, "MethodSettings::settings has a count and no items"), Status::invalid;
     for (const Setting& setting : settings.settings) {
         if (setting.id && values.set(setting.id, setting.value)) continue;
         std::string known;
@@ -236,12 +274,12 @@ Status choose(Context* context, const char* id, const MethodSettings& settings) 
         say(*context, std::string(info->id) + " has no parameter '" + (setting.id ? setting.id : "(null)") + "'; it has " + known);
         return Status::invalid;
     }
-    if (!(settings.falloff.length > 0.0f) || (settings.falloff.kind == FalloffKind::ramp && !(settings.falloff.end > settings.falloff.length))) {
-        say(*context, "MethodSettings::falloff needs a length above zero (and, for ramp, an end above it)");
+    if (!(settings.falloff.length > 0.0f) || !std::isfinite(reach(settings.falloff)) || (settings.falloff.kind == FalloffKind::ramp && !(settings.falloff.end > settings.falloff.length))) {
+        say(*context, "MethodSettings::falloff needs a finite length above zero (and, for ramp, an end above it)");
         return Status::invalid;
     }
     const uint64_t before = context->device->memoryUse();
-    if (!context->library->prepare(*info)) return Status::shaderError;
+    if (!context->library->prepare(*info)) return statusOf(context->device->failure());
     context->methodBytes += context->device->memoryUse() - before;
     context->values = std::move(values);
     context->falloff = settings.falloff;
@@ -277,18 +315,20 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcep
         if (!cmd) return say(*context, "the command buffer is null"), Status::invalid;
         const Given given = givenBy(frame, false);
         shared::View view;
-        if (!sensible(*context, frame, given, view)) return Status::invalid;
-        context->device->nextFrame();
+        if (const Status status = sensible(*context, frame, given, view); status != Status::ok) return status;
+        // A record() that failed used nothing of its frame: the next one takes its place.
+        if (!std::exchange(context->failed, true)) context->device->nextFrame();
         graph::Graph& graph = *context->graph;
         graph.begin();
         const gpu::Image* target = nullptr;
         if (const gpu::Status made = nextOutput(*context, {view.visible.x, view.visible.y}, target); made != gpu::Status::ok) return statusOf(made);
         if (frame.cut) context->library->reset();
         const graph::ImageId visibility = declare(*context, graph, frame, given);
-        if (!visibility) return Status::shaderError;
+        if (!visibility) return context->library->reset(), statusOf(context->device->failure());
         deliver(*context, graph, visibility, *target);
         const Status status = statusOf(graph.execute(cmd));
         if (status != Status::ok) return context->library->reset(), status;  // what the frame was to leave behind is not there
+        context->failed = false;
         output.image = target->handle();
         output.view = target->view();
         output.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
@@ -305,7 +345,7 @@ uint64_t memoryUse(Context* context, const Frame& frame) noexcept {
     guarded(context->log, [&] {
         const Given given = givenBy(frame, true);
         shared::View view;
-        if (!sensible(*context, frame, given, view)) return Status::invalid;
+        if (const Status status = sensible(*context, frame, given, view); status != Status::ok) return status;
         graph::Graph rehearsal(*context->device, true);
         rehearsal.begin();
         const graph::ImageId visibility = declare(*context, rehearsal, frame, given);

@@ -17,6 +17,7 @@ public:
     Library(gpu::Device& device, const gpu::ShaderLibrary& shaders);
     ~Library();
 
+    bool ready() const { return m_ready; }  // false: a pipeline that all methods need could not be made; logged
     // Makes the pipelines of one method, or of all (so that switching never hitches). False if any failed; logged.
     bool prepare(const MethodInfo& info);
     bool prepareAll();

@@ -13,7 +13,7 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
     const uint32_t width = frame.size.width, height = frame.size.height;
     const auto fail = [&](const char* why) { reason = why; return Status::invalid; };
     if (width == 0 || height == 0) return fail("Frame::size is zero");
-    if (2 * frame.guard.width >= width || 2 * frame.guard.height >= height) return fail("Frame::guard leaves nothing visible of Frame::size");
+    if (2 * uint64_t(frame.guard.width) >= width || 2 * uint64_t(frame.guard.height) >= height) return fail("Frame::guard leaves nothing visible of Frame::size");
     for (int i = 0; i < 16; ++i)
         if (!std::isfinite(p[i])) return fail("Frame::projection holds a value that is not finite");
     if (p[0] == 0.0f || p[5] == 0.0f) return fail("Frame::projection scales x or y to nothing");

@@ -12,7 +12,30 @@
 
 namespace obscura::gpu {
 
-std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& error) {
+namespace {
+
+constexpr size_t kRoomForReleases = 2048;  // objects: more than a frame, or a context's end, releases
+
+// Why the device will not do; null if it will. What the host has turned on cannot be asked for, only what there is.
+const char* unfit(const Api& vk, VkPhysicalDevice physical, uint32_t family) {
+    uint32_t count = 0;
+    vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    if (family >= count) return "queueFamily is none it has";
+    if (!(families[family].queueFlags & VK_QUEUE_COMPUTE_BIT)) return "queueFamily does no compute";
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v13};
+    vk.GetPhysicalDeviceFeatures2(physical, &features);
+    if (!v13.synchronization2) return "feature synchronization2 is missing";
+    if (!features.features.shaderStorageImageExtendedFormats) return "feature shaderStorageImageExtendedFormats is missing";
+    return nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& error, Status* why) {
+    if (why) *why = Status::unsupported;
     const char* missing = !host.instance ? "instance" : !host.physicalDevice ? "physicalDevice" : !host.device ? "device"
                         : !host.getInstanceProcAddr ? "getInstanceProcAddr" : nullptr;
     if (missing) {
@@ -34,15 +57,24 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& er
         error = fmt::format("adopting a Vulkan device: {} is missing; instance and device must be of Vulkan 1.3", missing);
         return nullptr;
     }
+    VkPhysicalDeviceProperties properties;
+    device->m_vk.GetPhysicalDeviceProperties(host.physicalDevice, &properties);
+    missing = properties.apiVersion < VK_API_VERSION_1_3 ? "Vulkan 1.3 is needed" : unfit(device->m_vk, host.physicalDevice, host.queueFamily);
+    if (missing) {
+        error = fmt::format("adopting the Vulkan device '{}': {}", properties.deviceName, missing);
+        return nullptr;
+    }
     device->m_device = host.device;
     if (Status status = device->finish(); status != Status::ok) {
         error = fmt::format("adopting the Vulkan device '{}': {}", device->m_caps.deviceName, name(status));
+        if (why) *why = status;
         return nullptr;
     }
     return device;
 }
 
 Status Device::finish() {
+    m_released.reserve(kRoomForReleases);
     VkPhysicalDeviceProperties properties;
     m_vk.GetPhysicalDeviceProperties(m_physical, &properties);
     m_caps.deviceName = properties.deviceName;
@@ -75,7 +107,10 @@ Status Device::finish() {
     VkPipelineCacheCreateInfo cache{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     cache.initialDataSize = m_pipelineCacheRead.size();
     cache.pInitialData = m_pipelineCacheRead.data();
-    return fromVulkan(m_vk.CreatePipelineCache(m_device, &cache, m_allocator, &m_pipelineCache));
+    VkPipelineCache made = VK_NULL_HANDLE;
+    const VkResult result = m_vk.CreatePipelineCache(m_device, &cache, m_allocator, &made);
+    if (result == VK_SUCCESS) m_pipelineCache = made;
+    return fromVulkan(result);
 }
 
 Device::~Device() {
@@ -94,6 +129,7 @@ Device::~Device() {
 }
 
 void Device::nextFrame() {
+    m_released.reserve(m_released.size() + kRoomForReleases);
     ++m_frame;
     if (m_frame >= m_framesInFlight) destroyReleased(m_frame - m_framesInFlight);
 }

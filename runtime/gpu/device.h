@@ -66,7 +66,7 @@ enum class Filter : uint8_t { nearest, linear };
 class Device {
 public:
     static std::unique_ptr<Device> create(const DeviceOptions& options, std::string& error);
-    static std::unique_ptr<Device> adopt(const AdoptedDevice& host, std::string& error);
+    static std::unique_ptr<Device> adopt(const AdoptedDevice& host, std::string& error, Status* why = nullptr);
     // Names of all devices, "name (type)", in the order `create` prefers.
     static std::vector<std::string> list();
     ~Device();
@@ -105,6 +105,9 @@ public:
     VkSampler sampler(const VkSamplerCreateInfo& info);              // likewise
     void nameObject(VkObjectType type, uint64_t handle, const char* name) const;
     void log(Severity severity, const std::string& message) const;
+    // What failed last: for whoever learns that something was not made, but not why.
+    void noteFailure(Status status) const { m_failure = status; }
+    Status failure() const { return m_failure; }
     bool formatSupports(VkFormat format, VkFormatFeatureFlags features) const;  // optimal tiling
 
     // Records and runs commands at once, waits for them. For loading and tests; refused without a queue.
@@ -145,7 +148,8 @@ private:
     uint64_t m_frame = 0;
     uint64_t m_memoryUse = 0;
     uint64_t m_validationMessages = 0;
-    std::vector<Released> m_released;
+    std::vector<Released> m_released;                  // with room to spare: destructors add to it, which must not fail
+    mutable Status m_failure = Status::ok;
     struct CachedSampler { std::array<uint32_t, 18> key; VkSampler sampler; };
     std::vector<CachedSampler> m_samplers;
 

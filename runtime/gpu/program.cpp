@@ -283,7 +283,10 @@ Status Program::build() {
         }
     }
     for (const VkPipelineShaderStageCreateInfo& stage : stages) vk.DestroyShaderModule(m_device->handle(), stage.module, m_device->allocator());
-    if (result != VK_SUCCESS) return bad(fromVulkan(result), fmt::format("the driver refused the pipeline: {}", resultName(result)));
+    if (result != VK_SUCCESS) {  // an answer that means nothing else is about the shader
+        const Status status = fromVulkan(result);
+        return bad(status == Status::invalid ? Status::shaderError : status, fmt::format("the driver refused the pipeline: {}", resultName(result)));
+    }
     m_pipeline = pipeline;
     m_device->nameObject(VK_OBJECT_TYPE_PIPELINE, (uint64_t)m_pipeline, m_name.c_str());
     return Status::ok;

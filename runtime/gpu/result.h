@@ -14,6 +14,7 @@ std::string lowerCase(std::string text);
 // Logs the line as an error and returns the status: `return fail(device, Status::invalid, "image 'x': ...")`.
 inline Status fail(const Device& device, Status status, const std::string& line) {
     device.log(Severity::error, line);
+    device.noteFailure(status);
     return status;
 }
 

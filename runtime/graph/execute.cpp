@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/result.h"
 #include "graph/physical.h"
 
 namespace obscura::graph {
@@ -50,8 +51,8 @@ VkDescriptorPool makePool(gpu::Device& device) {
     info.poolSizeCount = uint32_t(std::size(sizes));
     info.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    device.vk().CreateDescriptorPool(device.handle(), &info, device.allocator(), &pool);
-    return pool;
+    const VkResult result = device.vk().CreateDescriptorPool(device.handle(), &info, device.allocator(), &pool);
+    return result == VK_SUCCESS ? pool : VK_NULL_HANDLE;
 }
 
 }  // namespace
@@ -94,28 +95,24 @@ void Graph::barriers(VkCommandBuffer cmd, const std::vector<Barrier>& list) {
     m_device.vk().CmdPipelineBarrier2(cmd, &info);
 }
 
-gpu::Status Graph::bind(VkCommandBuffer cmd, Pass& pass) {
+// A pass's descriptor set, from this frame's pools.
+gpu::Status Graph::fillSet(Pass& pass) {
     const gpu::Api& vk = m_device.vk();
     gpu::Program& program = *pass.m_program;
-    vk.CmdBindPipeline(cmd, program.bindPoint(), program.pipeline());
-    if (!pass.m_constants.empty() && program.pushConstantBytes() > 0)
-        vk.CmdPushConstants(cmd, program.layout(), program.stages(), 0, std::min(program.pushConstantBytes(), uint32_t(pass.m_constants.size())),
-                            pass.m_constants.data());
-    if (pass.m_bound.empty()) return gpu::Status::ok;
-
     VkDescriptorSet set = VK_NULL_HANDLE;
     const VkDescriptorSetLayout layout = program.setLayout(0);
+    const auto none = [&] { return gpu::fail(m_device, gpu::Status::outOfMemory, fmt::format("graph: no descriptor set for {}", program.name())); };
     while (set == VK_NULL_HANDLE) {
         const bool fresh = m_frame->pool == m_frame->pools.size();
-        if (fresh) m_frame->pools.push_back(makePool(m_device));
-        VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, m_frame->pools[m_frame->pool], 1, &layout};
-        if (info.descriptorPool == VK_NULL_HANDLE) {
-            m_frame->pools.pop_back();
-            return gpu::Status::outOfMemory;
+        if (fresh) {
+            const VkDescriptorPool pool = makePool(m_device);
+            if (pool == VK_NULL_HANDLE) return none();
+            m_frame->pools.push_back(pool);
         }
+        VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, m_frame->pools[m_frame->pool], 1, &layout};
         if (vk.AllocateDescriptorSets(m_device.handle(), &info, &set) == VK_SUCCESS) break;
         set = VK_NULL_HANDLE;
-        if (fresh) return gpu::Status::outOfMemory;
+        if (fresh) return none();
         ++m_frame->pool;
     }
 
@@ -134,7 +131,9 @@ gpu::Status Graph::bind(VkCommandBuffer cmd, Pass& pass) {
         } else {
             const bool sampled = binding.kind == gpu::BindingKind::sampledImage;
             const bool whole = bound.mip == ~0u && sampled;
-            images[next] = {sampled ? samplerOf(m_device, bound.sampling) : VK_NULL_HANDLE,
+            const VkSampler sampler = sampled ? samplerOf(m_device, bound.sampling) : VK_NULL_HANDLE;
+            if (sampled && !sampler) return gpu::Status::outOfMemory;  // the device has said so
+            images[next] = {sampler,
                             whole ? physical.view : physical.mip(bound.mip == ~0u ? 0 : bound.mip), info(accessOf(binding)).layout};
             write.pImageInfo = &images[next];
         }
@@ -142,8 +141,18 @@ gpu::Status Graph::bind(VkCommandBuffer cmd, Pass& pass) {
         ++next;
     }
     vk.UpdateDescriptorSets(m_device.handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);
-    vk.CmdBindDescriptorSets(cmd, program.bindPoint(), program.layout(), 0, 1, &set, 0, nullptr);
+    pass.m_set = set;
     return gpu::Status::ok;
+}
+
+void Graph::bind(VkCommandBuffer cmd, const Pass& pass) {
+    const gpu::Api& vk = m_device.vk();
+    const gpu::Program& program = *pass.m_program;
+    vk.CmdBindPipeline(cmd, program.bindPoint(), program.pipeline());
+    if (!pass.m_constants.empty() && program.pushConstantBytes() > 0)
+        vk.CmdPushConstants(cmd, program.layout(), program.stages(), 0, std::min(program.pushConstantBytes(), uint32_t(pass.m_constants.size())),
+                            pass.m_constants.data());
+    if (pass.m_set) vk.CmdBindDescriptorSets(cmd, program.bindPoint(), program.layout(), 0, 1, &pass.m_set, 0, nullptr);
 }
 
 void Graph::run(VkCommandBuffer cmd, Pass& pass) {
@@ -218,6 +227,7 @@ void Graph::collectTimings(Frame& frame) {
                                                               VK_QUERY_RESULT_64_BIT);
     const uint32_t count = frame.queryCount;
     frame.queryCount = 0;
+    m_lost |= result == VK_ERROR_DEVICE_LOST;
     if (result != VK_SUCCESS) return;
     const gpu::Caps& caps = m_device.caps();
     const auto milliseconds = [&](uint64_t from, uint64_t to) { return double((to - from) & caps.timestampMask) * caps.timestampPeriod * 1e-6; };
@@ -227,29 +237,44 @@ void Graph::collectTimings(Frame& frame) {
     m_timings.milliseconds = milliseconds(ticks.front(), ticks.back());
 }
 
-gpu::Status Graph::execute(VkCommandBuffer cmd) {
-    const gpu::Status status = realize();
-    if (status != gpu::Status::ok) return status;
-    const gpu::Api& vk = m_device.vk();
+// All that can fail, before anything is recorded.
+gpu::Status Graph::prepare() {
+    if (m_lost) return gpu::fail(m_device, gpu::Status::deviceLost, "graph: the device is lost");
+    if (const gpu::Status status = realize(); status != gpu::Status::ok) return status;
+    for (const Plan::Step& step : m_plan.steps) {
+        Pass& pass = m_passes[step.pass];
+        if (!pass.m_program || pass.m_bound.empty()) continue;
+        if (const gpu::Status status = fillSet(pass); status != gpu::Status::ok) return status;
+    }
+    const uint32_t wanted = uint32_t(m_plan.steps.size()) + 1;
+    if (!m_timing || !m_device.caps().timestamps || m_frame->queryCapacity >= wanted) return gpu::Status::ok;
+    m_device.release(VK_OBJECT_TYPE_QUERY_POOL, m_frame->queries);
+    m_frame->queries = VK_NULL_HANDLE;
+    m_frame->queryCapacity = 0;
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = std::max(64u, wanted * 2);
+    VkQueryPool queries = VK_NULL_HANDLE;
+    if (const VkResult made = m_device.vk().CreateQueryPool(m_device.handle(), &info, m_device.allocator(), &queries))
+        return gpu::fail(m_device, gpu::fromVulkan(made), "graph: no query pool for timestamps");
+    m_frame->queries = queries;
+    m_frame->queryCapacity = info.queryCount;
+    return gpu::Status::ok;
+}
 
-    const bool timing = m_timing && m_device.caps().timestamps;
+gpu::Status Graph::execute(VkCommandBuffer cmd) {
     m_frame->passNames.clear();
     m_frame->queryCount = 0;
+    // A frame that fails changes no image: the pool stays as it was left. In a destructor, for want of host memory shows as an exception.
+    m_slotsBefore = m_plan.slots;
+    struct Undo {
+        Graph* graph;
+        ~Undo() { if (graph) graph->m_plan.slots.swap(graph->m_slotsBefore); }
+    } undo{this};
+    if (const gpu::Status status = prepare(); status != gpu::Status::ok) return status;
+    const gpu::Api& vk = m_device.vk();
+    const bool timing = m_timing && m_device.caps().timestamps;
     if (timing) {
-        const uint32_t wanted = uint32_t(m_plan.steps.size()) + 1;
-        if (m_frame->queryCapacity < wanted) {
-            m_device.release(VK_OBJECT_TYPE_QUERY_POOL, m_frame->queries);
-            m_frame->queryCapacity = std::max(64u, wanted * 2);
-            VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-            info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-            info.queryCount = m_frame->queryCapacity;
-            m_frame->queries = VK_NULL_HANDLE;
-            const VkResult made = vk.CreateQueryPool(m_device.handle(), &info, m_device.allocator(), &m_frame->queries);
-            if (made != VK_SUCCESS) {
-                m_frame->queryCapacity = 0;
-                return gpu::fromVulkan(made);
-            }
-        }
         vk.CmdResetQueryPool(cmd, m_frame->queries, 0, m_frame->queryCapacity);
         timestamp(cmd);
     }
@@ -262,10 +287,7 @@ gpu::Status Graph::execute(VkCommandBuffer cmd) {
             vk.CmdBeginDebugUtilsLabelEXT(cmd, &label);
         }
         barriers(cmd, step.barriers);
-        if (pass.m_program) {
-            const gpu::Status bound = bind(cmd, pass);
-            if (bound != gpu::Status::ok) return bound;
-        }
+        if (pass.m_program) bind(cmd, pass);
         run(cmd, pass);
         if (labels) vk.CmdEndDebugUtilsLabelEXT(cmd);
         if (timing) {
@@ -274,6 +296,7 @@ gpu::Status Graph::execute(VkCommandBuffer cmd) {
         }
     }
     barriers(cmd, m_plan.closing);
+    undo.graph = nullptr;
 
     // Hand the states on to the next frame.
     for (uint32_t i = 0; i < m_physical.size(); ++i)

@@ -223,12 +223,11 @@ Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History
         output(current);
         return {previous, current, false};
     }
-    if (!history.m_images[0] || !(history.m_images[0].desc() == desc)) {
-        for (int i = 0; i < 2; ++i) {
-            gpu::Image::create(m_device, desc, name.c_str(), history.m_images[i]);
-            history.m_states[i].assign(desc.mips, State{});
-        }
+    for (int i = 0; i < 2; ++i) {
+        if (history.m_images[i] && history.m_images[i].desc() == desc) continue;
+        history.m_states[i].assign(desc.mips, State{});
         history.m_valid = false;
+        if (gpu::Image::create(m_device, desc, name.c_str(), history.m_images[i]) != gpu::Status::ok) break;  // execute() then fails
     }
     HistoryPair pair{{}, {}, history.m_valid};
     for (int i = 0; i < 2; ++i) {
@@ -325,31 +324,35 @@ bool Graph::bindings() {
 
 gpu::Status Graph::realize() {
     if (!bindings()) return gpu::Status::invalid;
+    for (uint32_t i = 0; i < m_recording.resources.size(); ++i) {
+        const Kind kind = m_recording.resources[i].kind;
+        if (kind == Kind::buffer ? !m_physical[i].buffer : kind == Kind::imported && !m_physical[i].image)
+            return m_device.failure() == gpu::Status::ok ? gpu::Status::invalid : m_device.failure();  // whoever failed to make it has said so
+    }
     // Pool images that nobody wanted for a while go; the rest lend their states to the plan.
     for (size_t i = m_pool.size(); i-- > 0;) {
         if (m_pool[i].lastUsed + kForgetAfter >= m_device.frame()) continue;
         m_pool.erase(m_pool.begin() + ptrdiff_t(i));
         m_plan.slots.erase(m_plan.slots.begin() + ptrdiff_t(i));
     }
+    m_slotsBefore = m_plan.slots;
     Plan next = plan(m_recording, m_plan.slots);
     for (const std::string& problem : next.problems) m_device.log(gpu::Severity::error, "graph: " + problem);
     if (!next.problems.empty()) return gpu::Status::invalid;
+    m_pool.reserve(next.slots.size());
+    m_slotsBefore.reserve(next.slots.size());  // so that both grow or neither
     while (m_pool.size() < next.slots.size()) {
         PoolImage fresh;
         fresh.lastUsed = m_device.frame();
-        const gpu::Status status = gpu::Image::create(m_device, next.slots[m_pool.size()].desc, "graph image", fresh.image);
-        if (status != gpu::Status::ok) {
-            for (size_t i = m_plan.slots.size(); i < m_pool.size(); ++i) m_plan.slots.push_back({next.slots[i].desc, next.slots[i].ordinal, std::vector<State>(next.slots[i].desc.mips)});
-            return status;
-        }
+        const Slot& slot = next.slots[m_pool.size()];
+        if (const gpu::Status status = gpu::Image::create(m_device, slot.desc, "graph image", fresh.image); status != gpu::Status::ok) return status;
+        m_slotsBefore.push_back({slot.desc, slot.ordinal, std::vector<State>(slot.desc.mips)});
         m_pool.push_back(std::move(fresh));
     }
     m_plan = std::move(next);
 
     for (uint32_t i = 0; i < m_recording.resources.size(); ++i) {
-        const Resource& resource = m_recording.resources[i];
         Physical& physical = m_physical[i];
-        if (resource.kind == Kind::buffer && physical.buffer == VK_NULL_HANDLE) return gpu::Status::outOfMemory;
         if (m_plan.slotOf[i] < 0) continue;
         PoolImage& pooled = m_pool[size_t(m_plan.slotOf[i])];
         pooled.lastUsed = m_device.frame();

@@ -118,6 +118,7 @@ private:
     std::vector<Attachment> m_colors;
     std::optional<Attachment> m_depth;
     std::vector<std::byte> m_constants;
+    VkDescriptorSet m_set = VK_NULL_HANDLE;
     Work m_work = Work::none;
     uint32_t m_size[3] = {1, 1, 1};
     Record m_record;
@@ -152,7 +153,8 @@ public:
     void prefix(std::string text) { m_prefix = std::move(text); }
     void output(ImageId image);                            // keep what writes it
 
-    // Records everything. Status::invalid (with a log line) when the recording contradicts itself or the shaders.
+    // Records everything, or nothing: Status::invalid (with a log line) when the recording contradicts itself or the shaders, or what the
+    // device lacked. A frame that failed may be begun again.
     gpu::Status execute(VkCommandBuffer cmd);
 
     void setTiming(bool on) { m_timing = on; }
@@ -183,7 +185,9 @@ private:
     struct PoolBuffer;
     bool bindings();
     gpu::Status realize();
-    gpu::Status bind(VkCommandBuffer cmd, Pass& pass);
+    gpu::Status prepare();
+    gpu::Status fillSet(Pass& pass);
+    void bind(VkCommandBuffer cmd, const Pass& pass);
     void barriers(VkCommandBuffer cmd, const std::vector<Barrier>& list);
     void run(VkCommandBuffer cmd, Pass& pass);
     void timestamp(VkCommandBuffer cmd);
@@ -196,6 +200,8 @@ private:
     uint64_t m_rehearsed = 0;                              // bytes of histories and buffers
     Recording m_recording;
     Plan m_plan;
+    std::vector<Slot> m_slotsBefore;                       // the pool's images as the last executed frame left them
+    bool m_lost = false;                                   // the device, says a query
     std::deque<Pass> m_passes;
     std::string m_prefix;                                  // of pass names
     std::vector<Physical> m_physical;

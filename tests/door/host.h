@@ -26,6 +26,8 @@ public:
         context = nullptr;
         m_bits = {};
         m_images.clear();
+        if (m_pool) m_device.vk().DestroyCommandPool(m_device.handle(), m_pool, nullptr);
+        m_pool = VK_NULL_HANDLE;
     }
 
     ao::DeviceDesc desc() {
@@ -67,8 +69,8 @@ public:
         return image(name, format, size, bytes, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 
-    // `picture` is what trace() makes of the shot's geometry.
-    ao::Frame frame(const Shot& shot, const Picture& picture) {
+    // `picture` is what trace() makes of the shot's geometry. Images are kept by name: frames that live at once have `set`s of their own.
+    ao::Frame frame(const Shot& shot, const Picture& picture, const std::string& set = {}) {
         const Geometry& g = shot.geometry;
         ao::Frame f;
         f.size = g.size();
@@ -80,24 +82,44 @@ public:
             for (int row = 0; row < 3; ++row) f.eyeFromWorld[4 * column + row] = float(axes[row][column]);
         for (int row = 0; row < 3; ++row) f.eyeFromWorld[12 + row] = float(moved[row]);
         f.depthKind = shot.depth.kind == Depth::linear ? ao::DepthKind::linear : ao::DepthKind::device;
-        f.depth = image("depth", shot.depth.format, f.size, encodeDepth(g, shot.depth, picture), shot.depth.layout);
+        f.depth = image("depth" + set, shot.depth.format, f.size, encodeDepth(g, shot.depth, picture), shot.depth.layout);
         if (shot.depth.kind == Depth::linear) f.skyDepth = float(9e3 * g.scale);
         if (!shot.normals.none) {
-            f.normals = image("normals", shot.normals.format, f.size, encodeNormals(g, shot.normals, picture), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            f.normals = image("normals" + set, shot.normals.format, f.size, encodeNormals(g, shot.normals, picture), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
             f.normalKind = shot.normals.kind;
             f.normalEncoding = shot.normals.encoding;
         }
-        f.layers.thickness = floats("thickness", VK_FORMAT_R32_SFLOAT, f.size, picture.thickness);
-        f.layers.second = floats("second", VK_FORMAT_R32G32_SFLOAT, f.size, picture.second);
+        f.layers.thickness = floats("thickness" + set, VK_FORMAT_R32_SFLOAT, f.size, picture.thickness);
+        f.layers.second = floats("second" + set, VK_FORMAT_R32G32_SFLOAT, f.size, picture.second);
         f.layers.secondSize = f.size;
         volume(g, f.volume);
         f.cut = true;
         return f;
     }
 
+    bool submits = true;  // false: nothing runs, so nothing need be compiled; for a context's whole life
+    // Submitted and waited for, unless record() failed: then the command buffer is thrown away.
     ao::Output record(const ao::Frame& frame) {
-        ao::Output output;
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { output = ao::record(context, cmd, frame); }), gpu::Status::ok);
+        const gpu::Api& vk = m_device.vk();
+        if (!m_pool) {
+            const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, m_device.queueFamily()};
+            EXPECT_EQ(vk.CreateCommandPool(m_device.handle(), &pool, nullptr, &m_pool), VK_SUCCESS);
+            const VkCommandBufferAllocateInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, m_pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+            EXPECT_EQ(vk.AllocateCommandBuffers(m_device.handle(), &one, &m_cmd), VK_SUCCESS);
+        }
+        const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+        EXPECT_EQ(vk.ResetCommandPool(m_device.handle(), m_pool, 0), VK_SUCCESS);
+        EXPECT_EQ(vk.BeginCommandBuffer(m_cmd, &begin), VK_SUCCESS);
+        const ao::Output output = ao::record(context, m_cmd, frame);
+        EXPECT_EQ(vk.EndCommandBuffer(m_cmd), VK_SUCCESS);
+        if (submits && output.status == ao::Status::ok) {
+            const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, m_cmd, 0};
+            VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+            submit.commandBufferInfoCount = 1;
+            submit.pCommandBufferInfos = &buffer;
+            EXPECT_EQ(vk.QueueSubmit2(m_device.queue(), 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
+            EXPECT_EQ(vk.QueueWaitIdle(m_device.queue()), VK_SUCCESS);
+        }
         return output;
     }
     std::vector<float> pixels(const ao::Output& output, VkExtent2D size) {
@@ -160,6 +182,8 @@ private:
     gpu::Device& m_device;
     gpu::Buffer m_bits;
     std::map<std::string, gpu::Image> m_images;
+    VkCommandPool m_pool = VK_NULL_HANDLE;
+    VkCommandBuffer m_cmd = VK_NULL_HANDLE;
 };
 
 }  // namespace obscura::test
