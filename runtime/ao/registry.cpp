@@ -35,7 +35,7 @@ const Parameter kShared[] = {
 
 const Setting kRaw[] = {{"denoise", 0}, {"blur", 0}, {"filter", 0}, {"temporal", 0}};
 const Setting kSpatial[] = {{"temporal", 0}};
-const Setting kTemporal[] = {{"temporal", 0.9f}};
+const Setting kTemporal[] = {{"temporal", 0.92f}};
 const Preset kResolves[] = {
     {"raw", "Samples as they are.", {kRaw, std::size(kRaw)}},
     {"spatial", "The method's own blur.", {kSpatial, std::size(kSpatial)}},

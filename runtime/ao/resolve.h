@@ -49,8 +49,8 @@ struct TemporalSettings {
     float depthTolerance = 0.02f; // how far off the surface's plane a past pixel may lie, in its depths [Hoang 2012, eps]
     float normalTolerance = 0.9f; // least cosine between the normals; -1: any
     float clip = 1.5f;            // past beyond so many standard deviations of the present is drawn in: occluders that move leave no
-                                  // trail on receivers that do not. They are of 3x3 pixels, two apart, off their slope, and where a
-                                  // pixel moves on the screen of what it has been changing by. 0: off, as in the papers
+                                  // trail on receivers that do not. They are of 3x3 pixels, two apart, off their slope, and of what the
+                                  // pixel has kept changing by. 0: off, as in the papers
     float clipFloor = 0.01f;      // and this much visibility more
 };
 

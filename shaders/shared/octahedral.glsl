@@ -8,12 +8,14 @@ vec2 toOctahedron(vec3 n) {
     vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
     return n.z >= 0.0 ? n.xy : folded;
 }
-vec3 fromOctahedron(vec2 e) {
+// The direction, at a length of 1/sqrt(3) to 1.
+vec3 alongOctahedron(vec2 e) {
     vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
     float t = max(-n.z, 0.0);
     n.xy -= vec2(n.x >= 0.0 ? t : -t, n.y >= 0.0 ? t : -t);
-    return normalize(n);
+    return n;
 }
+vec3 fromOctahedron(vec2 e) { return normalize(alongOctahedron(e)); }
 
 uint packNormal(vec3 n) { return packSnorm2x16(toOctahedron(n)); }
 vec3 unpackNormal(uint bits) { return fromOctahedron(unpackSnorm2x16(bits)); }

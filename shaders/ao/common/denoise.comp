@@ -26,7 +26,11 @@ void main() {
         return;
     }
     vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
-    vec3 here = eyePosition(view, vec2(p + guard) + 0.5, z);
+    // A neighbour lies off the tangent plane by (its depth) x (r.n) - here.n, and r.n, of its ray r, changes evenly over the picture.
+    vec2 along = view.unproject.xy * n.xy;
+    float ray = dot(vec2(p + guard) + 0.5, along) + dot(view.unproject.zw, n.xy);
+    bool orthographic = view.orthographic > 0.5;
+    float height = (orthographic ? ray : ray * z) - z * n.z;
     float sharpness = (kStrict ? kStrictPlane : kPlane) / z;
     const float kernel[3] = {6.0, 4.0, 1.0};
     float sum = 0.0, weights = 0.0;
@@ -36,11 +40,18 @@ void main() {
             bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, ivec2(view.visible)));
             q = clamp(q, ivec2(0), ivec2(view.visible) - 1);
             float zq = imageLoad(depth, q + guard).x;
-            vec3 there = eyePosition(view, vec2(q + guard) + 0.5, zq);
-            float plane = abs(dot(there - here, n));
-            float facing = max(0.0, dot(n, unpackNormal(imageLoad(normals, q + guard).x)));
-            if (kStrict) facing *= facing, facing *= facing, facing *= facing;
-            float w = kernel[abs(x)] * kernel[abs(y)] * facing / (1.0 + sharpness * plane);
+            float rayThere = ray + dot(vec2(q - p), along);
+            float plane = abs((orthographic ? rayThere : rayThere * zq) - zq * n.z - height);
+            vec3 m = alongOctahedron(unpackSnorm2x16(imageLoad(normals, q + guard).x));
+            float facing = max(0.0, dot(n, m)), square = dot(m, m), soft = 1.0 + sharpness * plane;
+            float w = kernel[abs(x)] * kernel[abs(y)];
+            if (kStrict) {
+                float even = facing * facing / square;
+                even *= even;
+                w *= even * even / soft;
+            } else {
+                w *= facing / (sqrt(square) * soft);
+            }
             w = inside ? w : 0.0;
             sum += w * imageLoad(source, q).x;
             weights += w;

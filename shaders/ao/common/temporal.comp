@@ -2,8 +2,9 @@
 // that lie in the plane of this pixel's surface as last frame's camera saw it and face the same way. The past is drawn into
 // the spread of the present around the pixel, which takes the trail of occluders that moved, and how far it had to be drawn
 // shortens its memory. What samples differently wherever a surface comes to lie in the picture has errors that are smooth in space and
-// change as it goes: a pixel that moves on the screen is allowed what it differed by, frame after frame, as well. One that
-// rests is not: there it would be a trail. Visibility is kept in 14 bits: in 8 or in a half, slow averages stand still a 1/255 off.
+// change as it goes; a surface of one pixel has noise that no neighbour shows. So a pixel is allowed what it has kept differing by, frame
+// after frame, as well (its unrest). That of one that rests grows slowly, by what is already there: one sudden change is a shadow that
+// left. Visibility is kept in 14 bits: in 8 or in a half, slow averages stand still a 1/255 off.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"
@@ -25,8 +26,9 @@ layout(push_constant) uniform Constants {
 } constants;
 
 const float kLongest = 63.0;  // frames that are counted
-const float kUnrest = 1.5;    // standard deviations in a mean change
+const float kUnrest = 1.5;    // times the mean change; 1.25 would be one standard deviation of noise
 const float kUnrestFrames = 8.0;
+const float kSudden = 2.0, kFirst = 0.01;  // times the unrest, and visibility more, that a resting pixel's change may count for
 const float kUnrestUnit = 4.0 / 131072.0;  // 12 bits: up to an eighth
 
 // 12 bits of unrest in place of a depth's lowest.
@@ -99,14 +101,15 @@ void main() {
         }
     mean /= 9.0;
     slope /= 12.0;  // from one of them to the next
-    float noise = sqrt(max(square / 9.0 - mean * mean - dot(slope, slope) * (2.0 / 3.0), 0.0));
-    float spread = constants.clip * (noise + kUnrest * moves * unrest) + constants.clipFloor;
+    float noise = max(square / 9.0 - mean * mean - dot(slope, slope) * (2.0 / 3.0), 0.0);  // variance
+    float spread = constants.clip * sqrt(noise + kUnrest * kUnrest * unrest * unrest) + constants.clipFloor;
     float drawn = constants.clip > 0.0 ? clamp(before, mean - spread, mean + spread) : before;
     frames *= clamp(1.0 - abs(drawn - before) / max(spread, 1e-6), 0.0, 1.0);
 
     frames = min(frames + 1.0, kLongest);
     float value = mix(now, drawn, known ? min(1.0 - 1.0 / frames, constants.history) : 0.0);
     imageStore(result, p, vec4(value));
-    unrest += known ? (abs(now - before) - unrest) / min(frames, kUnrestFrames) : 0.0;
+    float change = min(abs(now - before), mix(kSudden * unrest + kFirst, 1.0, moves));
+    unrest += known ? (change - unrest) / min(frames, kUnrestFrames) : 0.0;
     imageStore(pastNow, p, uvec4(packDepth(z, unrest), packPast(value, frames, packedNormal), 0, 0));
 }
