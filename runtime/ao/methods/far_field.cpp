@@ -38,6 +38,7 @@ const Parameter kParameters[] = {
     {"directions", "", 4, 32, 8, true, {}, "Directions in which the depth buffer is scanned, K; even numbers share walks between opposite ones."},
     {"segments", "", 1, 8, 4, true, {}, "Parts of each sector, evaluated one by one; the cost per pixel grows with directions x segments."},
     {"interval", "px", 3, 20, 5, true, {}, "Shortest interval that keeps one point, B0; longer ones cost less and leave more to the near field."},
+    {"longest", "", 0.25f, 1, 0.75f, false, {}, "Longest interval, parts of its distance; the paper's is 1. Intervals run along a sector's middle, so long ones reach across its sides and leave bands."},
     {"lines", "", 0, 2, 0, true, {kSparsities, 3}, "Which of the lines, a pixel apart, are scanned."},
     {"slope", "", -2, 2, 1, false, {}, "Slope of the second angle at which intervals are seen, s; the paper's is -1, from above. 0 counts as 1."},
     {"estimator", "", 0, 2, 2, true, {kEstimators, 3}, "What stands below a point: a slab away from the camera as in the paper, the connection to the point before it, or between both."},
@@ -49,12 +50,12 @@ const Parameter kParameters[] = {
     {"jitter", "", 0, 1, 0, false, {}, "How much of its segment a pixel's directions are turned by, at random: noise instead of bands. Not interleaved."},
     {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
 };
-const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"interval", 10}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"interval", 5}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"slope", -1},
+const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"interval", 5}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1},
                               {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kNine}};
-const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"interleave", kNine}};
-const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"averaging", 0}, {"thickness", 0.1f}, {"jitter", 1}};
+const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"interleave", kNine}};
+const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
     {"default", "8 directions x 4 segments, blended estimator, lateral pyramid.", {}},
     {"paper_8x2", "The paper's smaller setting.", {kPaper8, std::size(kPaper8)}},
@@ -112,6 +113,7 @@ public:
         constants.lineStep = float(lineStep);
         constants.slope = std::abs(slope) < 0.01f ? 1.0f : slope;
         constants.connection = connections[values.count("estimator")];
+        constants.longest = values["longest"];
         constants.unit = inputs.falloffDesc.length;
         constants.taps = values.count("near");
         constants.parts = values.count("parts") ? values.count("parts") : shared::kNearPart | shared::kFarPart;

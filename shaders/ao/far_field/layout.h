@@ -35,8 +35,9 @@ struct FarFieldConstants {
     float thickness;     // of surfaces, metres; 0: endless
     float jitter;        // of directions, parts of a sector
     uint side;           // of the interleaving tile
+    float longest;       // an interval may be, parts of its distance from the receiver
 };
-OBSCURA_SHARED_SIZE(FarFieldConstants, 60);
+OBSCURA_SHARED_SIZE(FarFieldConstants, 64);
 
 OBSCURA_SHARED_END
 #endif

@@ -106,10 +106,10 @@ Found nearPoint(Met met, Segment s, Receiver r, uint i, float first, float skyDe
     return Found(point, 1.0, t < s.exit && z < skyDepth && counts(met, point));
 }
 
-// Interval j or the longest that begins there, is aligned and not longer than its distance; j goes on behind it. `low` and `high`: the
+// Interval j or the longest that begins there, is aligned and not longer than its share of the distance; j goes on behind it. `low` and `high`: the
 // segment's sides, lines per pixel of distance.
 Found farPoint(Met met, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float skyDepth) {
-    float gap = float(j) - at.along / c.interval;  // in intervals
+    float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
     uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
     float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
     vec3 cell;
