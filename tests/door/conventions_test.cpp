@@ -186,6 +186,32 @@ TEST_P(Conventions, giveThePictureOfTheCanonicalFrame) {
             geometries.clear();
         };
         compare(sizes);
+        // An off-centre picture is another one's part, a flipped one that one upside down: what the matrix says must come out so. Noise
+        // and pyramids lie differently on the surfaces, so the mean is judged.
+        Row windows{"windows"};
+        for (const bool orthographic : {false, true}) {
+            Geometry wide = base;
+            wide.visible = {224, 144};
+            wide.orthographic = orthographic;
+            const auto pictureOf = [&](const Geometry& g) { return run({g, {Depth::reversed, VK_FORMAT_D32_SFLOAT}}, test::trace(g)); };
+            const std::vector<float> whole = pictureOf(wide);
+            Geometry aside = wide, upside = wide;
+            aside.shift = glm::dvec2(64, -32) / wide.focal();
+            upside.flipped = true;
+            const std::vector<float> part = pictureOf(aside), turned = pictureOf(upside);
+            std::vector<float> seenAside, seenWhole, back;
+            for (uint32_t y = 0; y < 144; ++y)
+                for (uint32_t x = 0; x < 224; ++x) {
+                    back.push_back(turned.at(size_t(143 - y) * 224 + x));
+                    if (x >= 160 || y >= 112) continue;
+                    seenAside.push_back(part.at(size_t(y) * 224 + x));
+                    seenWhole.push_back(whole.at(size_t(y + 32) * 224 + x + 64));
+                }
+            windows.add(orthographic ? "orthographic, off-centre" : "off-centre", deviation(seenAside, seenWhole));
+            windows.add(orthographic ? "orthographic, flipped" : "flipped", deviation(back, whole));
+        }
+        within(windows, 2.5, 255);
+        m_rows.push_back(windows);
         Row odd{"sizes"};
         for (const VkExtent2D size : {VkExtent2D{1, 1}, {2, 1}, {161, 91}, {97, 61}, {333, 5}, {3, 257}, {16384, 4}}) {
             Geometry& g = geometry(std::to_string(size.width) + "x" + std::to_string(size.height));
