@@ -19,6 +19,9 @@ void main() {
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
     Turn turn = jittered(turnOf(c), view, texel, c);
     vec2 sum = vec2(0.0);
-    for (uint k = 0u; k < c.directions; k += c.stride) sum += sectorOf(r, k, c, turn, view.skyDepth);
+    for (uint k = 0u;;) {  // ends with its test, see sectors.glsl
+        sum += sectorOf(r, k, c, turn, view.skyDepth);
+        if ((k += c.stride) >= c.directions) break;
+    }
     imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));
 }

@@ -130,21 +130,35 @@ vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth
     vec2 sum = vec2(0.0), along = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * at.d.along;
     float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments), taps = float(c.taps);
     float nearest = (float(at.first) * c.interval - at.along) / max(taps * sqrt(taps), 1.0);
-    for (uint segment = 0u; segment < c.segments; ++segment) {
+    for (uint segment = 0u;;) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
         Met met = Met(horizonAt(s.start), binsBelow(s.start));
         uint i = 0u, j = at.first, end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of what the near field blocks; it raises the horizon in any case
-        while (i < c.taps || j < end) {  // first to the next point that counts, then what it blocks: neighbouring pixels do either together
+        // First to the next point that counts, then what it blocks: neighbouring pixels do either together. Loops end with their test: software
+        // rasterisers run the body of one that begins with it once more for nobody.
+        while (true) {
             Found found = Found(vec2(0.0), 1.0, false);
-            while (!found.is && i < c.taps) found = nearPoint(met, s, r, i++, nearest, skyDepth);
+            if (i < c.taps) {
+                while (true) {
+                    found = nearPoint(met, s, r, i++, nearest, skyDepth);
+                    if (found.is || i >= c.taps) break;
+                }
+            }
             bool isFar = !found.is;
-            while (!found.is && j < end) found = farPoint(met, s, r, at, c, j, low, low + step, skyDepth);
+            if (isFar && j < end) {
+                while (true) {
+                    found = farPoint(met, s, r, at, c, j, low, low + step, skyDepth);
+                    if (found.is || j >= end) break;
+                }
+            }
             add(met, s, c, found.to / max(found.over, 1e-12), found.is, isFar ? 1.0 : share);
+            if (i >= c.taps && j >= end) break;
         }
         sum += s.weight * vec2(blockedOf(met), 1.0);
         low += step;
         along = mat2(turn.next, vec2(-turn.next.y, turn.next.x)) * along;
+        if (++segment >= c.segments) break;
     }
     return sum;
 }

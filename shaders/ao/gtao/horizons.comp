@@ -24,13 +24,13 @@ void main() {
 
     float open = kArcs ? 0.0 : clamp((10.0 - r.radius) / 100.0, 0.0, 1.0) * 0.5;  // a fade where the reach is a few pixels
     float blocked = 0.0;
-    for (uint k = 0u; k < slices; ++k) {
+    for (uint k = 0u;;) {
         Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(slices), rayAxis != 0u);
         float no = dot(r.n, slice.across), projected = sqrt(max(no * no + r.nv * r.nv, 1e-12)), sine = no / projected;
         vec2 low = vec2(-sine, sine);  // cosines of gamma +- pi/2: where the hemisphere ends
         vec2 horizon = low, covered = vec2(0.0);
         vec2 before = kArcs ? vec2(sliceArc(r.nv, no, low.x), sliceArc(r.nv, -no, low.y)) : vec2(0.0);
-        for (uint i = 0u; i < steps; ++i) {
+        for (uint i = 0u;;) {
             float t = placeOf(r, k, i, steps), l = t * t * r.radius + kTooClose;  // denser near the pixel
             int level = levelAt(l, mipOffset);
             vec2 offset = floor(l * slice.along + 0.5);
@@ -47,6 +47,7 @@ void main() {
                     horizon[side] = max(horizon[side], mix(low[side], c, weight));
                 }
             }
+            if (++i >= steps) break;
         }
         if (kArcs) {
             blocked += covered.x + covered.y;
@@ -56,6 +57,7 @@ void main() {
             float arcs = 2.0 * cos(gamma) + 2.0 * (h0 + h1) * sin(gamma) - cos(2.0 * h0 - gamma) - cos(2.0 * h1 - gamma);
             open += mix(projected, 1.0, 0.05) * 0.25 * arcs;
         }
+        if (++k >= slices) break;
     }
     float visibility = max(kArcs ? 1.0 - 0.5 * blocked / float(slices) : open / float(slices), 0.0);
     imageStore(noisy, p, uvec4(packNoisy(max(power == 1.0 ? visibility : pow(visibility, power), least), r.edges)));

@@ -108,7 +108,7 @@ void main() {
 
     float blocked = 0.0;
     uint shares = side * side;
-    for (uint k = side > 1u ? shareOf(view, p, side) : 0u; k < directions; k += shares) {
+    for (uint k = side > 1u ? shareOf(view, p, side) : 0u;;) {
         float angle = (float(k) + rotation) * kTwoPi / float(directions);
         vec2 direction = vec2(cos(angle), sin(angle));
         float tangent = tangentSine(view, here, n, v, pixel, direction);
@@ -118,7 +118,7 @@ void main() {
         Arc arc = Arc(horizon, 32.0 / max(1.0 - horizon, 1e-4), 0u, vec3(0.0), 1.0);
         float covered = 0.0;
 #endif
-        for (uint i = 0u; i < steps; ++i) {
+        for (uint i = 0u;;) {
             float t = (float(i) + offset) * inverseSteps;
             vec2 at = pixel + direction * max(mix(t, t * t, spacing) * span, 1.0);
             ivec2 q = clamp(ivec2(at), ivec2(0), last);
@@ -144,10 +144,12 @@ void main() {
             blocked += falloff(rho, distance2 * inverse) * gain;
             horizon += gain;
 #endif
+            if (++i >= steps) break;
         }
 #ifdef DEPTH_LAYERS
         blocked += covered / arc.scale;
 #endif
+        if ((k += shares) >= directions) break;
     }
     imageStore(visibility, p, vec4(clamp(1.0 - blocked / float(directions / shares), 0.0, 1.0)));
 }

@@ -38,7 +38,7 @@ void main() {
     float growth = factor, metres = unit, thick = thickness, half_ = kPi / float(directions), width = 2.0 * tan(half_);
     vec2 texelSize = 1.0 / r.size, sum = vec2(0.0), side = vec2(cos(half_), sin(half_)), along = jitterAt(view, texel, half_, jitter);
     mat2 next = mat2(cos(2.0 * half_), sin(2.0 * half_), -sin(2.0 * half_), cos(2.0 * half_));
-    for (uint k = 0u; k < directions; ++k) {
+    for (uint k = 0u;;) {  // ends with its test, see far_field/sectors.glsl
         Segment s = segmentOf(r, along, 1.0, side);
         Horizon h = horizonAt(s.start);
         Bins bins = binsBelow(s.start);
@@ -69,6 +69,7 @@ void main() {
         }
         sum += s.weight * vec2(kThin != 0u ? bins.sum : h.blocked, 1.0);
         along = next * along;
+        if (++k >= directions) break;
     }
     imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));
 }

@@ -35,13 +35,14 @@ float visibilityAt(View view, ivec2 texel, float z) {
     ivec2 p = texel - ivec2(view.guard);
     float spin = float((3 * p.x ^ p.y + p.x * p.y) * 10 & 0xffff) + 6.28318531 * frameShift(view).x;  // radians: as good as random
     float sum = 0.0, part = 1.0 / float(samples);
-    for (uint i = 0u; i < samples; ++i) {
+    for (uint i = 0u;;) {
         float alpha = (float(i) + 0.5) * part, angle = alpha * float(turns) * 6.28318531 + spin, l = alpha * reach;
         int level = clamp(int(floor(log2(l) - kFinest)), 0, kDepthLevels - 1);
         ivec2 q = clamp(texel + ivec2(l * vec2(cos(angle), sin(angle))), ivec2(0), last);
         vec3 v = eyePosition(view, vec2(q) + 0.5, imageLoad(depths, mipTexel(padded, q, level)).x) - here;
         float vv = dot(v, v), f = max(r2 - vv, 0.0);
         sum += f * f * f * max((dot(v, n) - off) / (kEpsilon * r2 + vv), 0.0);
+        if (++i >= samples) break;
     }
     return max(1.0 - sum * 5.0 * intensity * part / (r2 * r2 * r2), 0.0);
 }

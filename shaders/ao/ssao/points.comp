@@ -33,10 +33,11 @@ void main() {
     float angle = 6.28318531 * fract((float(bayer16(uvec2(p))) + 0.5) / 16.0 + frameShift(view).x);
     vec3 turned = vec3(cos(angle), sin(angle), 1e-3), t = normalize(turned - n * dot(turned, n)), b = cross(n, t);
     float blocked = 0.0;
-    for (uint i = 0u; i < samples; ++i) {
+    for (uint i = 0u;;) {
         vec3 k = kernel[i].xyz, s = here + t * k.x + b * k.y + n * k.z;
         float depthOf = max(-s.z, 1e-3), zq = imageLoad(depth, clamp(ivec2(floor(pixelOf(view, vec3(s.xy, -depthOf)))), ivec2(0), last)).x;
         blocked += zq <= depthOf - least ? smoothstep(0.0, 1.0, range / abs(z - zq)) : 0.0;
+        if (++i >= samples) break;
     }
     imageStore(visibility, p, vec4(1.0 - blocked / float(samples)));
 }

@@ -23,7 +23,7 @@ void main() {
     if (!receive(view, p, rho.reach, r)) return;
 
     float blocked = 0.0;
-    for (uint k = 0u; k < slices; ++k) {
+    for (uint k = 0u;;) {
         Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(slices), rayAxis != 0u);
         float no = dot(r.n, slice.across), projected = sqrt(max(no * no + r.nv * r.nv, 1e-12)), sine = no / projected;
         float gamma = sign(no) * arcCosine(r.nv / projected);
@@ -31,7 +31,7 @@ void main() {
         vec2 low = vec2(-sine, sine), whole = vec2(sliceArc(r.nv, no, low.x), sliceArc(r.nv, -no, low.y));
         float perSector = 32.0 / max(whole.x + whole.y, 1e-6), sum = 0.0;
         uint covered = 0u;
-        for (uint i = 0u; i < steps; ++i) {
+        for (uint i = 0u;;) {
             float t = placeOf(r, k, i, steps), l = t * t * r.radius + kTooClose;
             int level = levelAt(l, mipOffset);
             vec2 offset = floor(l * slice.along + 0.5);
@@ -55,8 +55,10 @@ void main() {
                 covered |= bits;
                 sum += weight * float(bitCount(bits));
             }
+            if (++i >= steps) break;
         }
         blocked += sum / 32.0 * (kCosine ? 0.5 * (whole.x + whole.y) : 1.0);
+        if (++k >= slices) break;
     }
     imageStore(noisy, p, uvec4(packNoisy(1.0 - blocked / float(slices), r.edges)));
 }

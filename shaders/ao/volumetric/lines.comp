@@ -45,7 +45,7 @@ void main() {
     float widens = orthographic || solid == 0u ? 0.0 : 1.0 / max(depthOf, 0.05 * z);
     float turn = 6.28318531 * fract((float(bayer16(uvec2(p))) + 0.5) / 16.0 + frameShift(view).x);
     float whole = 0.0, occupied = 0.0;
-    for (uint i = 0u; i < lines; ++i) {
+    for (uint i = 0u;;) {
         float angle = turn + 2.39996323 * float(i);
         vec2 at = middle + scale * sqrt((float(i) + 0.5) / float(lines)) * vec2(cos(angle), sin(angle));
         ivec2 q = clamp(ivec2(floor(at)), ivec2(0), last);
@@ -61,6 +61,7 @@ void main() {
         float gq = imageLoad(depth, q).x - depthOf, weight = inside > 0.0 && g1 > g0 ? 1.0 : 0.0;
         whole += weight * (volume(g1, widens) - volume(g0, widens));
         occupied += weight * max(volume(min(g1, gq + thick), widens) - volume(max(g0, gq), widens), 0.0);
+        if (++i >= lines) break;
     }
     float blocked = whole > 0.0 ? occupied / whole : 0.0;
     imageStore(visibility, p, vec4(clamp(1.0 - (solid == 0u ? 2.0 * blocked - 1.0 : blocked), 0.0, 1.0)));
