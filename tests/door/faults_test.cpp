@@ -9,7 +9,7 @@
 
 namespace {
 
-long newsUntilNone = -1;  // news of the library's own until one finds no memory; below 0: all do
+thread_local long newsUntilNone = -1;  // news of the library's own until one finds no memory; below 0: all do. The driver has threads too
 
 }  // namespace
 
