@@ -3,8 +3,8 @@
 // the spread of the present around the pixel, which takes the trail of occluders that moved, and how far it had to be drawn
 // shortens its memory. What samples differently wherever a surface comes to lie in the picture has errors that are smooth in space and
 // change as it goes; a surface of one pixel has noise that no neighbour shows. So a pixel is allowed what it has kept differing by, frame
-// after frame, as well (its unrest). That of one that rests grows slowly, by what is already there: one sudden change is a shadow that
-// left. Visibility is kept in 14 bits: in 8 or in a half, slow averages stand still a 1/255 off.
+// after frame, as well (its unrest). Of one that rests only changes to and fro count: what goes on in one direction is a shadow that comes
+// or leaves. Visibility is kept in 14 bits: in 8 or in a half, slow averages stand still a 1/255 off.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"
@@ -28,11 +28,10 @@ layout(push_constant) uniform Constants {
 const float kLongest = 63.0;  // frames that are counted
 const float kUnrest = 1.5;    // times the mean change; 1.25 would be one standard deviation of noise
 const float kUnrestFrames = 8.0;
-const float kSudden = 2.0, kFirst = 0.01;  // times the unrest, and visibility more, that a resting pixel's change may count for
-const float kUnrestUnit = 4.0 / 131072.0;  // 12 bits: up to an eighth
+const float kUnrestUnit = 1.0 / 16384.0;  // up to an eighth
 
-// 12 bits of unrest in place of a depth's lowest.
-uint packDepth(float z, float unrest) { return (floatBitsToUint(z) & 0xfffff000u) | uint(min(unrest / kUnrestUnit + 0.5, 4095.0)); }
+// 11 bits of unrest in place of a depth's lowest, above them whether the last change was a rise.
+uint packDepth(float z, float unrest, bool rose) { return (floatBitsToUint(z) & 0xfffff000u) | (rose ? 0x800u : 0u) | uint(min(unrest / kUnrestUnit + 0.5, 2047.0)); }
 
 // 14 bits of visibility, 6 of frames, 6 and 6 of the normal's octahedral map (3 degrees at worst).
 uint packPast(float value, float frames, uint normal) {
@@ -50,7 +49,7 @@ void main() {
     uint packedNormal = imageLoad(normals, p + guard).x;
     if (isSky(view, z)) {
         imageStore(result, p, vec4(now));
-        imageStore(pastNow, p, uvec4(packDepth(z, 0.0), packPast(now, 0.0, packedNormal), 0, 0));
+        imageStore(pastNow, p, uvec4(packDepth(z, 0.0, false), packPast(now, 0.0, packedNormal), 0, 0));
         return;
     }
 
@@ -66,7 +65,7 @@ void main() {
     farthest *= moved;
 
     vec2 corner = floor(at), part = at - corner;
-    float sum = 0.0, gathered = 0.0, unrest = 0.0, weights = 0.0;
+    float sum = 0.0, gathered = 0.0, unrest = 0.0, rises = 0.0, weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1), q = ivec2(corner) + step;
         bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThanEqual(q, last));
@@ -80,7 +79,8 @@ void main() {
         float w = same ? w2.x * w2.y : 0.0;
         sum += w * float(stored.y & 16383u);
         gathered += w * float(stored.y >> 14 & 63u);
-        unrest += w * float(stored.x & 0xfffu);
+        unrest += w * float(stored.x & 0x7ffu);
+        rises += w * float(stored.x >> 11 & 1u);
         weights += w;
     }
     bool known = constants.valid != 0u && weights > 0.01;
@@ -109,7 +109,8 @@ void main() {
     frames = min(frames + 1.0, kLongest);
     float value = mix(now, drawn, known ? min(1.0 - 1.0 / frames, constants.history) : 0.0);
     imageStore(result, p, vec4(value));
-    float change = min(abs(now - before), mix(kSudden * unrest + kFirst, 1.0, moves));
+    bool rose = now > before, turned = rose != (rises > 0.5 * weights);
+    float change = mix(turned ? 2.0 * abs(now - before) : 0.0, abs(now - before), moves);
     unrest += known ? (change - unrest) / min(frames, kUnrestFrames) : 0.0;
-    imageStore(pastNow, p, uvec4(packDepth(z, unrest), packPast(value, frames, packedNormal), 0, 0));
+    imageStore(pastNow, p, uvec4(packDepth(z, unrest, rose), packPast(value, frames, packedNormal), 0, 0));
 }
