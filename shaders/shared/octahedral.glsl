@@ -8,24 +8,16 @@ vec2 toOctahedron(vec3 n) {
     vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
     return n.z >= 0.0 ? n.xy : folded;
 }
-// The direction, at a length of 1/sqrt(3) to 1.
-vec3 alongOctahedron(vec2 e) {
-    vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
-    float t = max(-n.z, 0.0);
-    n.xy -= vec2(n.x >= 0.0 ? t : -t, n.y >= 0.0 ? t : -t);
-    return n;
-}
-vec3 fromOctahedron(vec2 e) { return normalize(alongOctahedron(e)); }
-
-uint packNormal(vec3 n) { return packSnorm2x16(toOctahedron(n)); }
-vec3 unpackNormal(uint bits) { return fromOctahedron(unpackSnorm2x16(bits)); }
-
-// Towards the same, of any length, where its square is divided out: neither divisions nor roots. `one`: what 1 is packed as.
+// Towards the vector, of any length, where its square is divided out: neither divisions nor roots. `one`: what 1 is packed as.
 vec3 directionOf(vec2 e, float one) {
     vec3 n = vec3(e, one - abs(e.x) - abs(e.y));
     float t = max(-n.z, 0.0);
     return vec3(n.xy - vec2(n.x >= 0.0 ? t : -t, n.y >= 0.0 ? t : -t), n.z);
 }
+vec3 fromOctahedron(vec2 e) { return normalize(directionOf(e, 1.0)); }
+
+uint packNormal(vec3 n) { return packSnorm2x16(toOctahedron(n)); }
+vec3 unpackNormal(uint bits) { return fromOctahedron(unpackSnorm2x16(bits)); }
 vec3 directionOf(uint bits) { return directionOf(vec2(int(bits << 16) >> 16, int(bits) >> 16) * (1.0 / 32767.0), 1.0); }
 
 #endif

@@ -42,7 +42,7 @@ void main() {
             float zq = imageLoad(depth, q + guard).x;
             float rayThere = ray + dot(vec2(q - p), along);
             float plane = abs((orthographic ? rayThere : rayThere * zq) - zq * n.z - height);
-            vec3 m = alongOctahedron(unpackSnorm2x16(imageLoad(normals, q + guard).x));
+            vec3 m = directionOf(imageLoad(normals, q + guard).x);
             float facing = max(0.0, dot(n, m)), square = dot(m, m), soft = 1.0 + sharpness * plane;
             float w = kernel[abs(x)] * kernel[abs(y)];
             if (kStrict) {

@@ -177,7 +177,7 @@ struct DepthLayers {
 
 struct Frame {
     VkExtent2D size{};                   // of depth and normals, guard band included
-    VkExtent2D guard{};                  // px on each side that are read but not shown; visible = size - 2 guard. Multiples of 16 keep depth pyramids on their texels
+    VkExtent2D guard{};                  // px on each side that are read but not shown; visible = size - 2 guard. Best multiples of 16
     float projection[16] = {};           // eye -> clip of the whole image, columns, Vulkan clip space; any depth convention
     float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // columns, rigid; for world normals and for histories
     ImageView depth;                     // device: D16, D24, D32 or R32F, sampled usage; linear: R32F
@@ -198,7 +198,8 @@ struct Frame {
 // Visibility. The image is the context's; it holds what it says until the context has recorded framesInFlight more frames, and you may leave it
 // in any layout. All null unless status is ok. (A method that makes bent normals will say so in MethodInfo, and a second image of this kind will follow here.)
 struct Output {
-    Status status = Status::invalid;     // ok, or a line in the log says why not; then nothing was recorded, but for outOfMemory: throw the command buffer away
+    Status status = Status::invalid;     // not ok: a line in the log says why, and nothing was recorded
+                                         // (outOfMemory: some may have been; throw the command buffer away)
     VkImage image = VK_NULL_HANDLE;      // DeviceDesc::format, Frame::size less guard bands; usage sampled, transfer source and destination
     VkImageView view = VK_NULL_HANDLE;   // 2D, one mip
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL: reads in compute and fragment shaders need no barrier
