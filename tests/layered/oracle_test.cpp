@@ -64,6 +64,11 @@ TEST_F(Oracle, cornerWithoutLayers) {
     EXPECT_LE(measure("corner", values({{"thickness", 1000}}, "reference"), kFalloff, kWorld).raw.eA, 0.0015f);
 }
 
+// Strata of metres: what counts for a stretch of surface is not the mean of its ends.
+TEST_F(Oracle, cornerFarReaching) {
+    EXPECT_LE(measure("corner", values({{"thickness", 1000}}), "exponential:1", "world.exponential_1").raw.eA, 0.0056f);
+}
+
 TEST_F(Oracle, cornerDrawn) {
     EXPECT_LE(drawn("corner", values({})), 0.0040f);
     EXPECT_LE(drawn("corner", values({}, "quality")), 0.0030f);

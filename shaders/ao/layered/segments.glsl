@@ -5,7 +5,7 @@
 #define OBSCURA_SEGMENTS_GLSL
 #include "ao/common/spans.glsl"
 #include "ao/common/tile.glsl"
-#include "shared/falloff.h"
+#include "ao/layered/sides.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -31,7 +31,6 @@ layout(push_constant) uniform Constants {
     uint side;      // of the tile whose pixels share the slices out
 };
 
-const float kPi = 3.14159265;
 const float kFlat = 0.1;             // sine of the angle up to which two samples share a plane
 const float kRise = 0.012;           // depths that a surface may rise over a stratum when they do not
 const float kNextStep = 0.61803399;  // slices do not sample in one rhythm
@@ -42,73 +41,6 @@ vec2 tileNoise(uvec2 p, uint side) {
     uint nine = p.x % 3u + 3u * (p.y % 3u), sixteen = bayer16(p);
     vec2 ranks = side == 3u ? vec2(nine, nine % 3u * 3u + nine / 3u) : vec2(sixteen, bitfieldReverse(sixteen) >> 28);
     return (ranks + 0.5) / (side == 3u ? 9.0 : 16.0);
-}
-
-// The view ray of a place on the slice: points are offset + (F - D) dir from the pixel's own, F their depth and D the pixel's.
-struct Ray {
-    vec2 offset;
-    vec3 dir;
-    float v0, v1;      // dot(offset, v), dot(dir, v)
-    float d0, d1, d2;  // squared distance: d0 + 2 d1 (F-D) + d2 (F-D)^2
-};
-struct Pixel {
-    vec2 ray;       // eye.xy / depth, or nothing when orthographic
-    float scale;    // metres of a difference of rays: depth, or 1
-    float perspective;
-    float depth;
-    vec3 n, v;
-};
-
-Ray rayAt(Pixel here, vec2 aside) {  // aside: difference of rays
-    Ray r;
-    r.offset = aside * here.scale;
-    r.dir = vec3((here.ray + aside) * here.perspective, -1.0);
-    r.v0 = dot(r.offset, here.v.xy);
-    r.v1 = dot(r.dir, here.v);
-    r.d0 = dot(r.offset, r.offset);
-    r.d1 = dot(r.offset, r.dir.xy);
-    r.d2 = dot(r.dir, r.dir);
-    return r;
-}
-float square(Ray r, float f) { return r.d0 + f * (2.0 * r.d1 + f * r.d2); }
-// Cosine of the angle at the pixel between the eye and a point.
-float cosine(Ray r, float f) { return (r.v0 + f * r.v1) * inversesqrt(max(square(r, f), 1e-20)); }
-// Distance to a span: to its nearest point, or to its front.
-float distanceTo(Ray r, float f, float end) { return sqrt(max(square(r, clamp(-r.d1 / r.d2, f, end)), 0.0)); }
-
-// One side of a slice. All integrals are told as parts of the whole side's.
-struct Side {
-    float least, flat_, curved;  // cosine at the hemisphere's end; up to cosine c: flat (1 - c^2) + curved (pi/2 - wave(c)), in 32nds
-    uint covered;
-    float blocked;               // 32nds
-    vec3 before, faced;          // the last sample, from the pixel, and its normal
-    float reached;               // pixels: how far its surface was followed
-};
-// asin c + c sqrt(1 - c^2), to 0.0014.
-float wave(float c) {
-    float c2 = c * c;
-    return c * (2.0109840 + c2 * (-0.4395425 + c2 * (0.2109025 - 0.2115477 * c2)));
-}
-float bitAt(Side side, float c) {
-    c = max(c, side.least);
-    return clamp(side.flat_ * (1.0 - c * c) + side.curved * (0.5 * kPi - wave(c)), 0.0, 32.0);
-}
-void cover(inout Side side, float front, float back, float weight) {
-    uint bits = partsBetween(bitAt(side, front), bitAt(side, back)) & ~side.covered;
-    side.covered |= bits;
-    side.blocked += weight * float(bitCount(bits));
-}
-
-// A span over the stratum from e0 by l to e1: front at depth differences f0, f, f1, `size` long at l. A solid's back stays at its
-// depth, for solids are round, unless that would halve it; a sheet's follows its front.
-void span(inout Side side, FalloffBlock rho, Ray e0, Ray l, Ray e1, float f0, float f, float f1, float size, bool counts) {
-    bool solid = size > 0.0;
-    float b = f + abs(size), b0 = solid ? max(f0 + 0.5 * size, b) : f0 - size, b1 = solid ? max(f1 + 0.5 * size, b) : f1 - size;
-    float w = falloff(rho, distanceTo(l, f, solid ? b : f));
-    float w0 = 0.5 * (w + falloff(rho, distanceTo(e0, f0, solid ? b0 : f0))), w1 = 0.5 * (w + falloff(rho, distanceTo(e1, f1, solid ? b1 : f1)));
-    float front = cosine(l, f), back = cosine(l, b);
-    cover(side, counts ? max(front, cosine(e0, f0)) : 1.0, counts ? min(back, cosine(e0, b0)) : 1.0, w0);
-    cover(side, counts ? max(front, cosine(e1, f1)) : 1.0, counts ? min(back, cosine(e1, b1)) : 1.0, w1);
 }
 
 void main() {
@@ -154,7 +86,7 @@ void main() {
         while (true) {
             float whole = 0.5 * max(nv + angle * no + sign * 0.5 * kPi * no, 0.0);
             float scale = 16.0 / max(whole, 1e-6);
-            Side half_ = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0), here.n, 1.0);
+            Side half_ = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0), here.n, 1.0, 1.0);
             float place = fract(jitter + (sign > 0.0 ? 0.0 : 0.5));
             uint i = 0u;
             while (true) {
@@ -179,7 +111,7 @@ void main() {
                 float off = dot(ns, from), plane = dot(ns, d);
                 bool flat_ = off * off < kFlat * kFlat * dot(ns, ns) * dot(from, from);
                 bool hollow = off < 0.0 && dot(half_.faced, from) > 0.0 && matter.firstLength < 0.0;
-                Ray ray0 = rayAt(here, sign * min(flat_ ? half_.reached : e0, l) * stepRay), ray1 = rayAt(here, sign * max(e1, l) * stepRay);
+                Ray ray0 = rayAt(here, sign * min(flat_ ? half_.reached : hollow ? half_.at : e0, l) * stepRay), ray1 = rayAt(here, sign * max(e1, l) * stepRay);
                 float most = (flat_ ? 0.5 : kRise) * zs;
                 most = matter.firstLength > 0.0 ? min(matter.firstLength, most) : most;
                 float most0 = hollow ? 0.5 * zs : most;
@@ -187,14 +119,16 @@ void main() {
                 float end = (plane - dot(ns.xy, ray1.offset)) / min(dot(ns, ray1.dir), -1e-4), f1 = clamp(end, f - most, f + most);
                 half_.before = inside ? d : half_.before;
                 half_.faced = inside ? ns : half_.faced;
+                half_.at = inside ? l : half_.at;
                 half_.reached = inside ? (f1 == end ? max(e1, l) : l) : half_.reached;
+                float nearest = hollow ? abs(plane) * inversesqrt(max(dot(ns, ns), 1e-20)) : 1e9;
                 bool above = dot(d, here.n) > 0.001 * length(d);  // the pixel's own plane covers nothing
-                span(half_, rho, ray0, ray, ray1, f0, f, f1, matter.firstLength, inside && above && !isSky(view, zs));
+                span(half_, rho, ray0, ray, ray1, f0, f, f1, matter.firstLength, nearest, inside && above && !isSky(view, zs));
 #ifdef TWO_SPANS
                 float g = matter.second - z;
                 vec3 b = vec3(ray.offset, 0.0) + g * ray.dir;
                 bool behind = dot(b, here.n) > 0.001 * length(b);
-                span(half_, rho, ray0, ray, ray1, g, g, g, matter.secondLength, inside && behind && matter.second > 0.0);
+                span(half_, rho, ray0, ray, ray1, g, g, g, matter.secondLength, 1e9, inside && behind && matter.second > 0.0);
 #endif
                 if (++i >= steps) break;
             }
