@@ -68,6 +68,9 @@ private:
 struct Blocking {
     static constexpr float kEndless = std::numeric_limits<float>::infinity();
     float reach = kEndless, thickness = kEndless;  // metres
+    // At least 0: the frame's depth layers tell instead where each thing ends, and the second surface is asked likewise. How thick open
+    // sheets are, metres.
+    float sheet = -1.0f;
 };
 
 class Method {

@@ -26,6 +26,9 @@ constexpr float kFarthest = 1e18f;  // its square is a float
 Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out) {
     if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace[0]) != gpu::Status::ok) return Status::shaderError;
     if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_trace[1]) != gpu::Status::ok) return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_layers.comp", {}, out.m_layered[0]) != gpu::Status::ok) return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb_layers.comp", {}, out.m_layered[1]) != gpu::Status::ok) return Status::shaderError;
+    if (SpansPass::create(device, shaders, out.m_spans) != Status::ok) return Status::shaderError;
     return Upsample::create(device, shaders, out.m_upsample);
 }
 
@@ -43,8 +46,11 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
     const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
                       std::min(blocking.reach, kFarthest), blocking.thickness};
-    graph.pass("offscreen.trace", m_trace[size_t(inputs.volume.structure)]).read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits)
-        .read(inputs.depth).read(inputs.normals).write(map).write(receivers).constants(trace).dispatch(width, height);
+    const graph::ImageId spans = blocking.sheet >= 0.0f ? m_spans.add(graph, inputs, blocking.sheet, 0.0f) : graph::ImageId{};
+    graph::Pass& pass = graph.pass("offscreen.trace", (spans ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
+    pass.read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth).read(inputs.normals).write(map).write(receivers);
+    if (spans) pass.read(spans);
+    pass.constants(trace).dispatch(width, height);
     return m_upsample.add(graph, inputs, {map, receivers}, {kScale, kWindow, kRange * inputs.falloff.reach}, "offscreen", visibility);
 }
 

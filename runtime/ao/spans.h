@@ -25,4 +25,10 @@ inline constexpr Parameter kDepthLayers{"depth_layers", "", 0, 3, 0, true, {kLay
                                         "What is read of what lies behind the visible surface, so that things end where they do; each more costs geometry passes."};
 inline constexpr Parameter kSheet{"sheet", "m", 0, 100, 0.05f, false, {}, "How thick open surfaces are where depth layers are read: those that no back face follows."};
 
+// What blocks for a method that reads depth layers wherever the frame has them, and else takes for solid what `bare` says.
+inline Blocking blockingOfSpans(Blocking bare, const Inputs& inputs, const Values& values) {
+    if (inputs.layers.thickness) bare.sheet = values["sheet"];
+    return bare;
+}
+
 }  // namespace obscura::ao

@@ -91,6 +91,45 @@ TEST_F(OffScreenTest, whatThePictureShowsIsNotCountedAgain) {
     EXPECT_LT(added, 0.0005);
 }
 
+// With depth layers what ends is solid from front to back and no farther, whatever thickness is else assumed: the back of a solid box is
+// counted already, behind a front of a box that is but a panel nothing is.
+TEST_F(OffScreenTest, depthLayersSayWhatHasBeenCounted) {
+    TallBox box({2.0, TallBox::kFloor, -5.5}, {3.2, 1.4, -4.0});
+    box.look(-18.0 * TallBox::kPi / 180);
+    box.thickness.assign(box.depth.size(), 65504.0f);
+    box.second.assign(2 * box.depth.size(), 0.0f);
+    Room panel = box;
+    size_t solids = 0;
+    for (uint32_t y = 0; y < box.height; ++y)
+        for (uint32_t x = 0; x < box.width; ++x) {
+            const TallBox::Point d = box.direction(x + 0.5, y + 0.5), from{50 * d[0], 50 * d[1], 50 * d[2]}, to{-d[0], -d[1], -d[2]};
+            const size_t i = size_t(y) * box.width + x;
+            int axis = 0;
+            const double front = box.hit({0, 0, 0}, d, axis), back = 50.0 - box.hit(from, to, axis);
+            if (std::abs(front - double(box.depth[i])) > 1e-3) continue;
+            box.thickness[i] = float(back - front);
+            panel.thickness[i] = 0.1f;
+            ++solids;
+        }
+    ASSERT_GT(solids, 500u);
+    for (const char* method : {"layered", "hbao"}) {
+        m_method = method;
+        const auto added = [&](const Room& room, float thickness) {
+            const auto of = [&](float what) {
+                Changes changes{{"depth_layers", 3}, {"offscreen", what}};
+                if (values({}).has("thickness")) changes.push_back({"thickness", thickness});
+                return mean(run(room, box.seen(), values(changes), "quadratic:2"));
+            };
+            return of(kHidden) - of(kOff);
+        };
+        const double solid = added(box, 0.1f), hollow = added(panel, 1000.0f);
+        printf("%-8s a solid box in view: %.5f more; its front alone: %.5f\n", method, solid, hollow);
+        EXPECT_GE(solid, 0.0) << method;
+        EXPECT_LT(solid, 0.0002) << method;
+        EXPECT_GT(hollow, 0.0004) << method;
+    }
+}
+
 TEST_F(OffScreenTest, withoutAVolumeTheMethodStandsAloneAndOneLineSaysSo) {
     Room none;
     none.wall = -4.0f;

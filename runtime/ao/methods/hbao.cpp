@@ -82,6 +82,8 @@ public:
         return values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "hbao.denoise") : visibility;
     }
 
+    Blocking blocking(const Inputs& inputs, const Values& values) const override { return blockingOfSpans(Method::blocking(inputs, values), inputs, values); }
+
 private:
     gpu::Program m_horizons, m_layered;
     SpansPass m_spans;

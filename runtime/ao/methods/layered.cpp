@@ -86,8 +86,10 @@ public:
         return visibility;
     }
 
-    // Spans end, so what passes behind them at more than the usual thickness has not been counted.
-    Blocking blocking(const Inputs&, const Values& values) const override { return {Blocking::kEndless, values["thickness"]}; }
+    // Spans end, so what passes behind them has not been counted.
+    Blocking blocking(const Inputs& inputs, const Values& values) const override {
+        return blockingOfSpans({Blocking::kEndless, values["thickness"]}, inputs, values);
+    }
 
 private:
     SpansPass m_spans;

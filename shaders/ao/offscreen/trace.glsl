@@ -1,11 +1,15 @@
 // Occluders that a screen-space method misses: rays through the volume, one invocation a pixel of the map. A ray ends where
 // the method takes the depth buffer for solid, and counts where it meets a set cell before that. In: volume, linear depth, packed
-// normals. Out: 1 - B of the map's receivers, and what they are. The rule is told in runtime/ao/offscreen.h.
+// normals; with DEPTH_LAYERS, spans of matter. Out: 1 - B of the map's receivers, and what they are. The rule is told in runtime/ao/offscreen.h.
 #ifndef OBSCURA_OFFSCREEN_TRACE_GLSL
 #define OBSCURA_OFFSCREEN_TRACE_GLSL
 #include "ao/common/lens.glsl"
 #include "ao/common/map.glsl"
 #include "shared/falloff.h"
+#ifdef DEPTH_LAYERS
+#include "ao/common/spans.glsl"
+layout(set = 0, binding = 7, rgba32ui) uniform readonly uimage2D spans;
+#endif
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
     uint rays;
@@ -24,9 +28,9 @@ const float kSlackPixels = 1.5;   // what lies less than this behind the surface
 const float kSlackCells = 1.7321; // a set cell nearer than this behind the surface shown may hold that surface
 
 // Whether the method has counted a point as blocked that lies `behind` the surface shown, `far2` the squared distance of that surface
-// from the receiver. A method that knows more surfaces than the first asks this once for each.
-bool represented(float behind, float slack, float far2, float reach2) {
-    return behind > slack && behind < thickness && far2 < reach2;
+// from the receiver and `size` how thick it is taken to be.
+bool represented(float behind, float slack, float size, float far2, float reach2) {
+    return behind > slack && behind < size && far2 < reach2;
 }
 
 void main() {
@@ -74,11 +78,21 @@ void main() {
             vec3 q = start + stridePixels * t, at = origin + stride * t;
             ivec2 shown;
             bool inside = texelOf(lens, q, shown);
+            float slack = slackScale * (q.z * lens.scale.x + lens.scale.y);
+#ifdef DEPTH_LAYERS
+            // A span goes on for as long as cells behind it may hold its back: no ray steps over what is thin.
+            Spans matter = unpackSpans(imageLoad(spans, shown));
+            float behind = q.z - matter.first, next = q.z - matter.second, size = abs(matter.firstLength) + slackCells, nextSize = abs(matter.secondLength) + slackCells;
+            vec3 d = surfaceAt(lens, shown, matter.first) - here, e = surfaceAt(lens, shown, matter.second) - here;
+            bool two = matter.second > 0.0, unseen = behind > size && !(two && next > -slackCells && next < nextSize);
+            bool ends = inside && (represented(behind, slack, size, dot(d, d), reach2) || two && represented(next, slack, nextSize, dot(e, e), reach2));
+#else
             float zq = imageLoad(depth, shown).x;
             float behind = q.z - zq;
             vec3 d = surfaceAt(lens, shown, zq) - here;
-            bool counts = occupied(volume, at) && (!inside || countsHidden && behind > slackCells);
-            bool ends = inside && represented(behind, slackScale * (q.z * lens.scale.x + lens.scale.y), dot(d, d), reach2);
+            bool unseen = behind > slackCells, ends = inside && represented(behind, slack, thickness, dot(d, d), reach2);
+#endif
+            bool counts = occupied(volume, at) && (!inside || countsHidden && unseen);
             hit = ends ? -1.0 : counts ? t : hit;
         }
         // The receiver lies below the origin: as far from what stands on its surface, by lift * c farther from what faces the ray.

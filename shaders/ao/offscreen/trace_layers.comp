@@ -1,0 +1,6 @@
+// Occluders that a screen-space method misses, from the window of bits, with depth layers.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define DEPTH_LAYERS
+#define VOLUME_BINDING 2
+#include "trace.glsl"
