@@ -36,6 +36,20 @@ TEST_F(Transcription, ultra) { compare("ultra", Published(9, 3)); }
 TEST_F(Transcription, highWithoutBlur) { compare("high", Published(3, 3, false), {{"denoise", 0}}); }
 TEST_F(Transcription, defaultIsHigh) { EXPECT_TRUE(values({}) == values({}, "high")); }
 
+// What never ends hides all behind it: with depth layers that say so of everything the published picture comes out, within 32nds of a side.
+TEST_F(Transcription, layersWithoutEnd) {
+    Room room = furnished();
+    const Changes fine{{"mip_offset", 30}, {"slices", 8}};  // no coarser depths, which are means without layers and whole pixels with them
+    const Picture bare = run(room, values(fine, "high"), "ramp:0.385:1");
+    room.thickness.assign(room.depth.size(), 65504.0f);
+    Changes layers = fine;
+    layers.push_back({"depth_layers", 1});
+    const Picture endless = run(room, values(layers, "high"), "ramp:0.385:1");
+    EXPECT_LT(meanDifference(endless, bare), 1.5 / 255.0);
+    room.thickness.assign(room.depth.size(), 0.1f);
+    EXPECT_LT(mean(run(room, values(layers, "high"), "ramp:0.385:1")), 0.9 * mean(endless));
+}
+
 // Each 64x64 pixels are walked once, from neighbour to neighbour.
 TEST(Hilbert, isAWalk) {
     std::vector<glm::ivec2> at(64 * 64, glm::ivec2(-1));

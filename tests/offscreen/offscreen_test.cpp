@@ -112,7 +112,7 @@ TEST_F(OffScreenTest, depthLayersSayWhatHasBeenCounted) {
             ++solids;
         }
     ASSERT_GT(solids, 500u);
-    for (const char* method : {"layered", "hbao"}) {
+    for (const char* method : {"layered", "hbao", "gtao"}) {
         m_method = method;
         const auto added = [&](const Room& room, float thickness) {
             const auto of = [&](float what) {

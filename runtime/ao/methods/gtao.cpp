@@ -12,7 +12,9 @@
 //
 // `weighting` arcs goes further, off by default: each sample that raises the horizon blocks what it newly covers, by its own rho,
 //     A = 1/N sum over slices and sides, over samples that raise the horizon of rho(d) (arc(h before) - arc(h)),
-// and none does that the tangent plane rules out; `axis` makes slices even around the view ray.
+// and none does that the tangent plane rules out; `axis` makes slices even around the view ray. With `depth_layers`, off by default too, a
+// sample raises no horizon: it covers the arc from its front to its back, 32 parts a side each but once (with `horizon`, both ends are
+// mixed; what never ends is then as published). XeGTAO's thin-occluder heuristic, which guesses that end, is not needed.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: depths, horizons, denoise twice.
 #include <cmath>
@@ -22,6 +24,7 @@
 #include "ao/edge_blur.h"
 #include "ao/resolve.h"
 #include "ao/slices.h"
+#include "ao/spans.h"
 
 namespace obscura::ao {
 namespace {
@@ -45,6 +48,8 @@ const Parameter kParameters[] = {
     kSliceMipOffset,
     {"power", "", 0.5f, 5, 2.2f, false, {}, "Visibility is raised to this."},
     {"floor", "", 0, 1, 0.03f, false, {}, "Least visibility."},
+    kDepthLayers,
+    kSheet,
     kSliceDenoise,
 };
 const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"radius_scale", 1}, {"weighting", 1}, {"axis", 1}, {"power", 1.3f}, {"floor", 0}};
@@ -69,8 +74,11 @@ class Gtao final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Gtao>();
-        for (uint32_t arcs = 0; arcs < 2; ++arcs)
+        for (uint32_t arcs = 0; arcs < 2; ++arcs) {
             if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp", {{0, arcs}}, result->m_horizons[arcs]) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons_layers.comp", {{0, arcs}}, result->m_layered[arcs]) != gpu::Status::ok) return nullptr;
+        }
+        if (SpansPass::create(device, shaders, result->m_spans) != Status::ok) return nullptr;
         if (EdgeBlur::create(device, shaders, result->m_edgeBlur) != Status::ok) return nullptr;
         if (DepthMips::create(device, shaders, DepthMips::Filter::farthest, result->m_depths) != Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
@@ -81,17 +89,22 @@ public:
         const auto& visible = inputs.view.visible;
         const Constants constants{stretched(inputs.falloff, values["radius_scale"]), values.count("slices"), values.count("steps"),
                                   values["mip_offset"], values["power"], values["floor"], values.count("axis")};
-        const graph::ImageId depths = m_depths.add(graph, inputs, "gtao.depths", kNearRange * constants.falloff.reach);
+        const graph::ImageId spans = inputs.layers.thickness ? m_spans.add(graph, inputs, values["sheet"], 0.0f) : graph::ImageId{};
+        const graph::ImageId depths = spans ? inputs.depth : m_depths.add(graph, inputs, "gtao.depths", kNearRange * constants.falloff.reach);
         const graph::ImageId noisy = graph.image("gtao.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});
-        graph.pass("gtao.horizons", m_horizons[values.count("weighting")]).read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy)
-            .constants(constants).dispatch(visible.x, visible.y);
+        graph::Pass& pass = graph.pass("gtao.horizons", (spans ? m_layered : m_horizons)[values.count("weighting")]);
+        pass.read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy);
+        if (spans) pass.read(spans);
+        pass.constants(constants).dispatch(visible.x, visible.y);
 
         const auto blur = SliceBlur(values.count("denoise"));
         const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == SliceBlur::edges, "gtao.denoise");
         return blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "gtao.blur") : visibility;
     }
 
-    Blocking blocking(const Inputs& inputs, const Values& values) const override { return {inputs.falloff.reach * values["radius_scale"], Blocking::kEndless}; }
+    Blocking blocking(const Inputs& inputs, const Values& values) const override {
+        return blockingOfSpans({inputs.falloff.reach * values["radius_scale"], Blocking::kEndless}, inputs, values);
+    }
 
 private:
     static shared::FalloffBlock stretched(shared::FalloffBlock rho, float factor) {
@@ -103,7 +116,8 @@ private:
     }
 
     DepthMips m_depths;
-    gpu::Program m_horizons[2];  // by weighting
+    gpu::Program m_horizons[2], m_layered[2];  // by weighting
+    SpansPass m_spans;
     EdgeBlur m_edgeBlur;
     Denoise m_denoise;
 };
