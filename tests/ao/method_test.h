@@ -89,8 +89,8 @@ protected:
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph->execute(cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
         if (probed) {
-            m_probed = {m_graph->desc(probed).width, m_graph->desc(probed).height, {}};
-            m_probed.words.resize(size_t(m_probed.width) * m_probed.height);
+            m_probed = {m_graph->desc(probed).width, m_graph->desc(probed).height, m_graph->desc(probed).format == VK_FORMAT_R32G32_UINT ? 2u : 1u, {}};
+            m_probed.words.resize(size_t(m_probed.width) * m_probed.height * m_probed.each);
             std::memcpy(m_probed.words.data(), probe.mapped(), m_probed.words.size() * 4);
         }
         std::vector<uint16_t> half(size_t(width) * height);
@@ -106,11 +106,11 @@ protected:
     std::unique_ptr<graph::Graph> m_graph;
     std::unique_ptr<ao::Library> m_library;
     std::set<std::string> m_passes;  // of the last run
-    std::string m_probe;             // an image, of 32-bit texels, that a pass writes: run() keeps it in m_probed
+    std::string m_probe;             // an image, of one or two 32-bit words a texel, that a pass writes: run() keeps it in m_probed
     struct {
-        uint32_t width = 0, height = 0;
+        uint32_t width = 0, height = 0, each = 1;
         std::vector<uint32_t> words;
-        uint32_t at(uint32_t x, uint32_t y) const { return words.at(size_t(y) * width + x); }
+        uint32_t at(uint32_t x, uint32_t y, uint32_t word = 0) const { return words.at((size_t(y) * width + x) * each + word); }
     } m_probed;
 };
 

@@ -23,13 +23,14 @@ TEST_F(LayeredTest, slicesMakeUpTheHemisphere) {
     // Evenly about the view ray; even directions on the screen would be off by 0.034 on average here.
     const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0.3f, 1, 0.05f}}}, 200, 120, 20);
     m_probe = "layered.parts";
-    for (const auto& [slices, tolerance] : {std::pair{16.0f, 0.004f}, {9.0f, 0.011f}}) {
+    for (const auto& [slices, tolerance] : {std::pair{16.0f, 0.004f}, {9.0f, 0.011f}}) {  // beside half of the step that parts.glsl stores it in
         run(room, values({{"slices", slices}, {"steps", 1}}, "reference"), "ramp:0.385:1");
         for (uint32_t y = 0; y < m_probed.height; ++y)
             for (uint32_t x = 0; x < m_probed.width; ++x) {
                 const size_t i = size_t(y + room.guard) * room.width + x + room.guard;
                 if (room.depth[i] > 100.0f) continue;
-                ASSERT_NEAR(halfToFloat(uint16_t(m_probed.at(x, y) >> 16)), 1.0f, tolerance) << slices << " slices at " << x << ", " << y;
+                const uint32_t whole = m_probed.at(x, y, 1) >> 16 & 63u;
+                ASSERT_NEAR(float(whole) / 40.0f, 1.0f, tolerance + 0.0125f) << slices << " slices at " << x << ", " << y;
             }
     }
 }
@@ -58,12 +59,40 @@ TEST_F(LayeredTest, everySizeAndSkyGiveFiniteValues) {
     const std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::cylinder, {0.2f, 0, -2}, {0.1f, 0, 0}}};
     for (const auto& [width, height, guard] : {std::tuple{8u, 8u, 0u}, {9u, 13u, 0u}, {37u, 21u, 4u}, {64u, 40u, 7u}})
         for (const bool half : {false, true})
-            for (const char* preset : {"default", "fast", "quality", "reference"}) {
+            for (const char* preset : {"default", "fastest", "fast", "quality", "reference"}) {
                 const Room room = frameOf(world, width, height, guard, half);
                 for (const float a : run(room, values({}, preset), "exponential:1")) EXPECT_TRUE(a >= 0.0f && a <= 1.0f) << width << "x" << height << " " << preset;
             }
     Room sky = frameOf({}, 32, 24, 2);
     EXPECT_EQ(highest(run(sky, values({}), "quadratic:2")), 0.0f);
+}
+
+TEST_F(LayeredTest, aMapOfSomePixelsShowsThePictureOfAll) {
+    // Along a row of the floor the wall is as far everywhere: row by row the same darkness, and no step from one of the map's pixels to the next.
+    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 383, 215, 32);  // the map's last pixels stand for fewer
+    const Picture all = run(room, values({{"slices", 16}}), "linear:3");
+    for (const float map : {2.0f, 3.0f}) {
+        const Picture some = run(room, values({{"slices", 16}, {"map", map}}), "linear:3");
+        EXPECT_TRUE(m_passes.count("layered.upsample"));
+        int rows = 0;
+        for (uint32_t y = 0; y < room.visibleHeight(); ++y) {
+            const uint32_t first = 120, end = 200;
+            const size_t row = size_t(y) * room.visibleWidth();
+            const auto normalAt = [&](int there) { return room.normals[4 * (size_t(int(y + room.guard) + there) * room.width + first + room.guard) + 1]; };
+            if (normalAt(0) < 0.5f || normalAt(-12) < 0.5f || all[row + first] < 0.02f) continue;  // a tile off the edge
+            double dark = 0.0, apart = 0.0, change = 0.0;
+            for (uint32_t x = first; x < end; ++x) {
+                dark += all[row + x];
+                apart += some[row + x] - all[row + x];
+                change += std::abs(some[row + x + 1] - some[row + x]);
+            }
+            // Darkness falls by an eighth a row: what is gathered from more rows is darker, by half the square of that times their variance.
+            EXPECT_NEAR(apart / dark, map == 2.0f ? 0.04 : 0.09, 0.03) << map << ", row " << y;
+            EXPECT_LT(change, 0.01 * dark) << map << ", row " << y;
+            ++rows;
+        }
+        EXPECT_GT(rows, 8);
+    }
 }
 
 TEST_F(LayeredTest, theSameFrameTwiceIsTheSame) {

@@ -17,8 +17,9 @@
 // levels of the packed texels (ao/common/spans.glsl).
 //
 // Reads linear depth, normals and depth layers, guard band included; writes visibility of the visible part. Passes: spans
-// (all of it in one texel), segments, gather. Slices are shared out among the pixels of a tile, and there is no other noise: a gather
-// along the surface that weighs each share alike takes more of it out than a bell-shaped blur, and leaves no tile.
+// (all of it in one texel), segments, gather, with a map upsample. Slices are shared out among the pixels of a tile, and there is no other noise: a gather
+// along the surface that weighs each share alike takes more of it out than a bell-shaped blur, and leaves no tile. Where time is
+// short, a map of some of the pixels does all this, gathers over its own tiles, and is then shared out along surfaces.
 #include <iterator>
 
 #include "ao/resolve.h"
@@ -32,23 +33,31 @@ struct Constants {  // segments.comp
     uint32_t slices, steps;
     float maxPixels;
     uint32_t side;      // of the interleaving tile
+    uint32_t map;       // pixels that one of the parts stands for, each way
+};
+struct Window {         // gather.glsl
+    uint32_t map, before, taps;
+    float covers;
 };
 
 const Parameter kParameters[] = {
     {"slices", "", 1, 32, 16, true, {}, "Slices of the hemisphere around the view ray; cost grows with slices x steps."},
     {"steps", "", 1, 64, 9, true, {}, "Samples to each side of a slice, each for a stratum out to the falloff's reach. Better raised before slices."},
     {"depth_layers", "", 0, 3, 1, true, {kLayerChoices, std::size(kLayerChoices)}, "What is read of what lies behind the visible surface; each more costs geometry passes."},
-    kSheet,
+    {kSheet.id, kSheet.unit, kSheet.minimum, kSheet.maximum, 0.2f, kSheet.integer, {}, kSheet.sentence},  // tuned
     {"thickness", "m", 0.01f, 1000, 0.5f, false, {}, "How thick everything is taken to be where there are no depth layers."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
+    {"map", "px", 1, 3, 1, true, {}, "Pixels that one of the map stands for, each way: 2 does a quarter of the work and gathers over twice the width."},
     {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
-const Setting kFast[] = {{"steps", 4}, {"depth_layers", float(LayerUse::none)}};
+const Setting kFast[] = {{"steps", 6}, {"depth_layers", float(LayerUse::none)}, {"map", 2}};
+const Setting kFastest[] = {{"steps", 4}, {"depth_layers", float(LayerUse::none)}, {"map", 3}};
 const Setting kQuality[] = {{"slices", 12}, {"depth_layers", float(LayerUse::second)}, {"interleave", 1}};
 const Setting kReference[] = {{"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
     {"default", "18 samples, a slice a pixel, thickness: one more geometry pass.", {}},
-    {"fast", "8 samples and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
+    {"fastest", "8 samples for nine pixels and no layers.", {kFastest, std::size(kFastest)}},
+    {"fast", "12 samples for four pixels and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
     {"quality", "54 samples, three slices a pixel, thickness and a second surface.", {kQuality, std::size(kQuality)}},
     {"reference", "1024 samples, nothing shared out: what the layers hold.", {kReference, std::size(kReference)}},
 };
@@ -67,7 +76,8 @@ public:
         if (SpansPass::create(device, shaders, result->m_spans) != Status::ok) return nullptr;
         if (gpu::Program::compute(device, shaders, "ao/layered/segments.comp", {}, result->m_segments[0]) != gpu::Status::ok) return nullptr;
         if (gpu::Program::compute(device, shaders, "ao/layered/segments_two.comp", {}, result->m_segments[1]) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/layered/gather.comp", {}, result->m_gather) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/layered/gather.comp", {}, result->m_gather[0]) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/layered/gather_map.comp", {}, result->m_gather[1]) != gpu::Status::ok) return nullptr;
         return result;
     }
 
@@ -76,13 +86,21 @@ public:
         const bool two = bool(inputs.layers.second);
         const graph::ImageId spans = m_spans.add(graph, inputs, values["sheet"], values["thickness"], two ? SpansPass::Spans::two : SpansPass::Spans::one);
         const uint32_t side = tileSide(values), slices = sharedOut(values.count("slices"), side) / (side * side);
-        const Constants constants{inputs.falloff, slices, values.count("steps"), values["max_pixels"], side};
-        const graph::ImageId parts = graph.image("layered.parts", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
+        const uint32_t map = values.count("map"), width = (visible.x + map - 1) / map, height = (visible.y + map - 1) / map;
+        const Constants constants{inputs.falloff, slices, values.count("steps"), values["max_pixels"], side, map};
+        graph::ImageId parts = graph.image("layered.parts", {VK_FORMAT_R32G32_UINT, width, height});
         const graph::ImageId visibility = graph.image("layered.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph.pass("layered.segments", m_segments[two]).read(inputs.viewBlock).read(inputs.normals).read(spans).write(parts).constants(constants)
-            .dispatch(visible.x, visible.y);
-        graph.pass("layered.gather", m_gather).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(parts).write(visibility).constants(side)
-            .dispatch(visible.x, visible.y);
+            .dispatch(width, height);
+        const Window tile{map, side / 2, side / 2 * 2 + 1, 0.5f * float(side) + 0.5f}, four{map, 0, 2, 1.0f};
+        if (map > 1) {
+            const graph::ImageId gathered = graph.image("layered.gathered", {VK_FORMAT_R32G32_UINT, width, height});
+            graph.pass("layered.gather", m_gather[1]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(parts).write(gathered).constants(tile)
+                .dispatch(width, height);
+            parts = gathered;
+        }
+        graph.pass(map > 1 ? "layered.upsample" : "layered.gather", m_gather[0]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(parts)
+            .write(visibility).constants(map > 1 ? four : tile).dispatch(visible.x, visible.y);
         return visibility;
     }
 
@@ -94,7 +112,7 @@ public:
 private:
     SpansPass m_spans;
     gpu::Program m_segments[2];  // of one span, of two
-    gpu::Program m_gather;
+    gpu::Program m_gather[2];    // to pixels, to a map's
 };
 
 }  // namespace

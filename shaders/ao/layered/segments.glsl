@@ -1,10 +1,12 @@
 // Segments of occlusion around each pixel: for every slice and step what the depth layers hold there covers part of the
 // hemisphere, once, with the falloff of where it stands. Formulas in runtime/ao/methods/layered.cpp.
-// In: normals and spans (one of matter, or with TWO_SPANS two), guard band included. Out: what they block and what they could, RG16F.
+// In: normals and spans (one of matter, or with TWO_SPANS two), guard band included. Out: what they block and what they could, of each pixel
+// or, with a map, of some (parts.glsl).
 #ifndef OBSCURA_SEGMENTS_GLSL
 #define OBSCURA_SEGMENTS_GLSL
 #include "ao/common/spans.glsl"
 #include "ao/common/tile.glsl"
+#include "ao/layered/parts.glsl"
 #include "ao/layered/sides.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
@@ -22,13 +24,14 @@ layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D spans;
 PACKED spansAt(ivec2 at) { return imageLoad(spans, at).xy; }
 Spans matterOf(PACKED texel) { return unpackSpan(texel); }
 #endif
-layout(set = 0, binding = 3, rg16f) uniform writeonly image2D parts;
+layout(set = 0, binding = 3, rg32ui) uniform writeonly uimage2D parts;
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
     uint slices;    // of this pixel
     uint steps;     // a side
     float maxPixels;
     uint side;      // of the tile whose pixels share the slices out
+    uint map;       // pixels that one of these stands for, each way
 };
 
 const float kFlat = 0.1;             // sine of the angle up to which two samples share a plane
@@ -47,11 +50,11 @@ void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
     FalloffBlock rho = falloffBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
-    ivec2 texel = p + ivec2(view.guard), last = ivec2(view.size) - 1, padded = paddedSize(view.size);
+    if (any(greaterThanEqual(p, imageSize(parts)))) return;
+    ivec2 texel = pixelOfMap(p, map, ivec2(view.visible)) + ivec2(view.guard), last = ivec2(view.size) - 1, padded = paddedSize(view.size);
     float z = uintBitsToFloat(spansAt(texel).x);
     if (isSky(view, z)) {
-        imageStore(parts, p, vec4(0.0, 1.0, 0.0, 0.0));
+        imageStore(parts, p, uvec4(packPart(z, vec3(0.0, 0.0, 1.0), 0.0, 1.0), 0u, 0u));
         return;
     }
     bool orthographic = view.orthographic > 0.5;
@@ -139,7 +142,7 @@ void main() {
         }
         if (++k >= slices) break;
     }
-    imageStore(parts, p, vec4(blocked / 32.0, measure, 0.0, 0.0) / float(slices));
+    imageStore(parts, p, uvec4(packPart(z, here.n, blocked / (32.0 * float(slices)), measure / float(slices)), 0u, 0u));
 }
 
 #endif
