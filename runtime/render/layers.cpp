@@ -1,5 +1,7 @@
 #include "render/layers.h"
 
+#include <algorithm>
+
 namespace obscura::render {
 namespace {
 
@@ -9,33 +11,54 @@ constexpr VkFormat kHit = VK_FORMAT_R32_UINT, kDepth = VK_FORMAT_D32_SFLOAT;
 
 struct ResolveConstants { uint32_t hits, asked; };  // resolve.comp
 
-Status createPair(gpu::Device& device, const gpu::ShaderLibrary& shaders, const std::string& fragment, gpu::GraphicsState state, gpu::Program& solid,
-                  gpu::Program& masked) {
+}  // namespace
+
+LayerForm FormTrial::next(const graph::Timings& arrived) {
+    if (m_chosen != LayerForm::best) return m_chosen;
+    if (arrived.frame != m_seen) {
+        double ms[2] = {};
+        bool whole[2] = {};
+        for (const graph::PassTime& pass : arrived.passes) {
+            const bool ladder = pass.name == "layers.clear" || pass.name == "layers.ladder";
+            if (ladder || pass.name.ends_with(" hit")) ms[ladder] += pass.milliseconds;
+            whole[0] |= pass.name == "layers.fourth hit";
+            whole[1] |= pass.name == "layers.ladder";
+        }
+        for (int form = 0; form < 2; ++form)
+            if (whole[form] && m_timed[form]++ > 0) m_least[form] = std::min(m_least[form], ms[form]);
+        m_seen = arrived.frame;
+    }
+    if (std::min(m_timed[0], m_timed[1]) >= kEach) m_chosen = m_least[0] < m_least[1] ? LayerForm::peeling : LayerForm::ladder;
+    if (m_chosen == LayerForm::best && m_declared++ == kMost) m_chosen = LayerForm::ladder;
+    return m_chosen != LayerForm::best ? m_chosen : m_declared % 2 ? LayerForm::ladder : LayerForm::peeling;
+}
+
+Status LayersPass::createPair(gpu::Device& device, const gpu::ShaderLibrary& shaders, const std::string& fragment, gpu::GraphicsState state,
+                               std::initializer_list<gpu::Constant> constants, Pair& out) {
     state.vertexBindings = {{0, kPositionBytes, VK_VERTEX_INPUT_RATE_VERTEX}};
     state.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
-    const Status status = gpu::Program::graphics(device, shaders, "scene/layers/place.vert", "scene/layers/" + fragment + ".frag", state, {}, solid);
+    const Status status = gpu::Program::graphics(device, shaders, "scene/layers/place.vert", "scene/layers/" + fragment + ".frag", state, constants, out.solid);
     if (status != Status::ok) return status;
     state.vertexBindings.push_back({1, kCoordsBytes, VK_VERTEX_INPUT_RATE_VERTEX});
     state.vertexAttributes.push_back({1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
     state.vertexAttributes.push_back({2, 1, VK_FORMAT_R16G16B16A16_SFLOAT, 16});
-    return gpu::Program::graphics(device, shaders, "scene/layers/place_masked.vert", "scene/layers/" + fragment + "_masked.frag", state, {}, masked);
+    return gpu::Program::graphics(device, shaders, "scene/layers/place_masked.vert", "scene/layers/" + fragment + "_masked.frag", state, constants, out.masked);
 }
-
-}  // namespace
 
 Status LayersPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayersPass& out) {
     gpu::GraphicsState peel;
     peel.colorFormats = {kHit};
     peel.depthFormat = kDepth;
     peel.depthTest = peel.depthWrite = true;
-    Status status = createPair(device, shaders, "peel", peel, out.m_peel.solid, out.m_peel.masked);
+    Status status = createPair(device, shaders, "peel", peel, {}, out.m_peel);
+    for (uint32_t first = 0; first < 2 && status == Status::ok; ++first) status = createPair(device, shaders, "peel_on", peel, {{0, first}}, out.m_peelOn[first]);
     out.m_canWrite = device.caps().fragmentWrites;
     if (status == Status::ok && out.m_canWrite) {
         gpu::GraphicsState ladder;
         ladder.depthFormat = kDepth;
         ladder.depthTest = true;
         ladder.depthCompare = VK_COMPARE_OP_LESS;  // reversed: behind what is seen
-        status = createPair(device, shaders, "ladder", ladder, out.m_ladder.solid, out.m_ladder.masked);
+        status = createPair(device, shaders, "ladder", ladder, {}, out.m_ladder);
     }
     return status == Status::ok ? gpu::Program::compute(device, shaders, "scene/layers/resolve.comp", {}, out.m_resolve) : status;
 }
@@ -59,7 +82,13 @@ ao::LayerSources LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::B
                                  const Deform::Posed& posed, Materials& materials, ao::LayerUse use, LayerForm form) {
     const uint32_t width = graph.desc(g.depth).width, height = graph.desc(g.depth).height;
     const bool second = use != ao::LayerUse::first, half = use == ao::LayerUse::secondHalf;
-    const bool ladder = m_canWrite && (form == LayerForm::ladder || (form == LayerForm::best && second));
+    if (form == LayerForm::best && second && m_canWrite) {
+        const bool open = m_trial.chosen() == LayerForm::best;
+        form = m_trial.next(graph.timings());
+        if (open && m_trial.chosen() != LayerForm::best)
+            graph.device().log(gpu::Severity::info, std::string("layers: two surfaces are drawn by ") + (form == LayerForm::ladder ? "the ladder" : "peeling"));
+    }
+    const bool ladder = m_canWrite && form == LayerForm::ladder;
     const char* const names[] = {"layers.second hit", "layers.third hit", "layers.fourth hit"};
     graph::ImageId hits[3];
     if (ladder) {
@@ -77,11 +106,12 @@ ao::LayerSources LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::B
     } else {
         graph::ImageId before = g.depth;
         for (int i = 0; i < (second ? 3 : 1); ++i) {
+            Pair& pair = second ? m_peelOn[i == 0] : m_peel;
             hits[i] = graph.image(names[i], {kHit, width, height});
             const graph::ImageId depth = graph.image(std::string(names[i]) + " depth", {kDepth, width, height});
-            graph::Pass& pass = graph.pass(names[i], m_peel.solid).read(frame).read(items).read(before);
+            graph::Pass& pass = graph.pass(names[i], pair.solid).read(frame).read(items).read(before);
             pass.color(hits[i], VkClearColorValue{}).depth(depth, 0.0f);
-            draw(pass, m_peel, list, posed, materials);
+            draw(pass, pair, list, posed, materials);
             before = depth;
         }
     }

@@ -48,9 +48,10 @@ struct VoxelSlice {
     std::optional<float> at;  // metres along it; none: where the camera is
 };
 
-// How depth layers are drawn, for methods that read them. `best`: thickness alone is peeled, one geometry pass; two surfaces go by the ladder
-// where the device's fragment shaders may write, else by three peels. On lavapipe, 640x360: one peel 42 ms against 77 in the atrium, 49 against
-// 100 in Sponza; three 130 against 77, 150 against 100. Other devices were not measured.
+// How depth layers are drawn, for methods that read them. `best`: thickness alone is peeled, one geometry pass; two surfaces by the ladder or
+// by three peels, whichever this device was quicker with in its first frames of them (peels where its fragment shaders may not write). The
+// pictures are the same to the bit. On lavapipe, 640x360: one peel 42 ms against 77 in the atrium, 49 against
+// 100 in Sponza; three 130 against 77, 150 against 100.
 enum class LayerForm : uint8_t { best, peeling, ladder };
 
 struct FrameOptions {

@@ -14,7 +14,11 @@ layout(location = 0) flat in float inShell;
 void climb() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     uint hit = hitOf(gl_FragCoord.z, faceOf(inShell));
-    hit = min(hit, imageAtomicMax(second, p, hit));
-    if (hit != 0u) hit = min(hit, imageAtomicMax(third, p, hit));
+    uint found = imageAtomicMax(second, p, hit);
+    hit = found == hit ? 0u : min(hit, found);  // the same hit again is no other one
+    if (hit != 0u) {
+        found = imageAtomicMax(third, p, hit);
+        hit = found == hit ? 0u : min(hit, found);
+    }
     if (hit != 0u) imageAtomicMax(fourth, p, hit);
 }
