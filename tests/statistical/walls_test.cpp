@@ -39,7 +39,7 @@ protected:
 };
 
 TEST_F(Hall, isAsKnown) {
-    const Picture picture = run(values({{"gain", 1}}, "quality"));
+    const Picture picture = run(values({{"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1}, {"largest", 0.25f}}, "quality"));
     for (const auto& [y, expected] : {std::pair{119u, 0.1216}, {120u, 0.1097}, {121u, 0.0987}, {123u, 0.0796}, {117u, 0.1242}, {114u, 0.1531}, {109u, 0.0673}})
         EXPECT_NEAR(row(picture, y), expected, 5e-4) << "row " << y;
 }
@@ -127,7 +127,7 @@ TEST_F(StatisticalTest, theBoxFollowsTheFalloff) {
     Room room;
     room.wall = -4.0f;
     room.build();
-    EXPECT_EQ(run(room, values({{"radius", 1.5f}, {"height", 3.0f}}), "quadratic:1"), run(room, values({}), "quadratic:2"));
+    EXPECT_EQ(run(room, values({{"radius", 1.5f}, {"height", 3.0f}}), "quadratic:1"), run(room, values({{"radius", 0.75f}, {"height", 1.5f}}), "quadratic:2"));
     double before = 0.0;
     for (const char* falloff : {"linear:0.5", "linear:1", "wendland:2", "linear:2"}) {
         const double now = mean(run(room, values({}), falloff));

@@ -28,20 +28,20 @@ struct Trace {
 constexpr float kGrain = 1.0f;  // cells a side of the noise's
 
 const Parameter kParameters[] = {
-    {"rays", "", 8, 128, 32, true, {}, "Rays a pixel of the map; cost grows with rays x steps."},
-    {"steps", "", 4, 64, 8, true, {}, "Places looked at along a ray, out to the falloff's reach; fewer miss thin things."},
+    {"rays", "", 8, 128, 21, true, {}, "Rays a pixel of the map; cost grows with rays x steps."},
+    {"steps", "", 4, 64, 10, true, {}, "Places looked at along a ray, out to the falloff's reach; fewer miss thin things."},
     {"jitter", "", 0, 1, 1, false, {}, "1: steps are shifted for each ray, noise for the filter to take out; 0: the same for all, as in the paper, which leaves steps in the picture."},
     {"spread", "", 0.1f, 1, 1, false, {}, "Half angle of the rays' cone over 90 degrees; less is sharper and wrong."},
     {"offset", "cells", 0, 8, 1.75f, false, {}, "How far above the surface rays start. A cell that a plane touches ends within sqrt(3) cells of it: below that a surface darkens itself, above it loses contact shadows."},
     {"map", "px", 1, 4, 2, true, {}, "Pixels a map's pixel, each way: 2 traces a quarter of them."},
     kInterleave,
-    {"filter", "px", 0, 32, 16, true, {}, "Width of the upsampling filter; 0: the smallest that fills the gaps."},
-    {"filter_range", "", 0.01f, 1, 0.25f, false, {}, "Points further apart than this part of the falloff's reach share nothing."},
+    {"filter", "px", 0, 32, 20, true, {}, "Width of the upsampling filter; 0: the smallest that fills the gaps."},
+    {"filter_range", "", 0.01f, 1, 0.31f, false, {}, "Points further apart than this part of the falloff's reach share nothing."},
 };
-const Setting kPaper[] = {{"jitter", 0}, {"filter_range", 1}};
+const Setting kPaper[] = {{"rays", 32}, {"steps", 8}, {"jitter", 0}, {"filter", 16}, {"filter_range", 1}};
 const Setting kQuality[] = {{"rays", 64}, {"steps", 24}, {"filter", 8}, {"map", 1}};
 const Preset kPresets[] = {
-    {"default", "32 rays x 8 shifted steps on a quarter-area map, 16-pixel filter.", {}},
+    {"default", "21 rays x 10 shifted steps on a quarter-area map, 20-pixel filter.", {}},
     {"paper", "32 rays x 8 equal steps on a quarter-area map, 16-pixel filter; give it a window of 256 cells.", {kPaper, std::size(kPaper)}},
     {"quality", "64 rays x 24 steps at every pixel, 8-pixel filter.", {kQuality, std::size(kQuality)}},
 };

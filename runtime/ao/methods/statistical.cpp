@@ -38,17 +38,17 @@ const Parameter kParameters[] = {
     {"layers", "", 0, 5, 2, true, {kLayerings, 6}, "How depths are kept apart: by local means, or in uniform slices of the whole depth range, which only comparisons are worth."},
     {"quadrants", "", 0, 1, 1, true, {}, "1: each quarter of the window by itself, so that what lies below the surface on one side hides nothing on the other."},
     {"tables", "", 0, 2, 1, true, {kSizes, 3}, "Size of the tables against the picture's; memory and most of the time go with its square."},
-    {"radius", "R", 0.05f, 4, 0.75f, false, {}, "Half width of the box, in reaches of the falloff."},
-    {"height", "R", 0.05f, 4, 1.5f, false, {}, "Height of the box, in reaches of the falloff."},
-    {"slope", "", 0.1f, 16, 4, false, {}, "How fast what stands higher than the box stops counting: gone at 1 + 1/slope heights."},
-    {"gain", "", 0.1f, 4, 1.4f, false, {}, "Strength: the filled part of a box is less than the blocked part of the sky."},
-    {"largest", "", 0.01f, 0.5f, 0.25f, false, {}, "Largest half width on the screen, in picture heights; bounds the numbers, and so sets their precision."},
+    {"radius", "R", 0.05f, 4, 0.78f, false, {}, "Half width of the box, in reaches of the falloff."},
+    {"height", "R", 0.05f, 4, 0.92f, false, {}, "Height of the box, in reaches of the falloff."},
+    {"slope", "", 0.1f, 16, 1.5f, false, {}, "How fast what stands higher than the box stops counting: gone at 1 + 1/slope heights."},
+    {"gain", "", 0.1f, 4, 1.17f, false, {}, "Strength: the filled part of a box is less than the blocked part of the sky."},
+    {"largest", "", 0.01f, 0.5f, 0.22f, false, {}, "Largest half width on the screen, in picture heights; bounds the numbers, and so sets their precision."},
     {"estimator", "", 0, 2, 0, true, {kEstimators, 3}, "Tables, or for comparison samples in the same box: points, or lines along the normal with a 5x5 blur."},
     {"samples", "", 1, 1024, 256, true, {}, "Points or lines a pixel; tables take none."},
 };
-const Setting kPaper[] = {{"quadrants", 0}, {"tables", 0}};
-const Setting kPaperHalf[] = {{"quadrants", 0}, {"tables", 1}};
-const Setting kPaperQuarter[] = {{"quadrants", 0}, {"tables", 2}};
+const Setting kPaper[] = {{"quadrants", 0}, {"tables", 0}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
+const Setting kPaperHalf[] = {{"quadrants", 0}, {"tables", 1}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
+const Setting kPaperQuarter[] = {{"quadrants", 0}, {"tables", 2}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
 const Setting kQuality[] = {{"tables", 0}};
 const Preset kPresets[] = {
     {"default", "4 adaptive layers, four quadrants, tables of half size.", {}},

@@ -32,12 +32,12 @@ const Parameter kParameters[] = {
 };
 const Setting kBallAlone[] = {{"solid", kBall}};
 const Setting kDense[] = {{"lines", 33}};
-const Setting kTuned[] = {{"lines", 16}, {"thickness", 1}};
+const Setting kTuned[] = {{"lines", 16}, {"radius_scale", 0.56f}, {"thickness", 1.36f}};
 const Preset kPresets[] = {
     {"default", "9 lines as published, through the half ball above the surface.", {}},
     {"depth_alone", "9 lines through the whole ball: no normals.", {kBallAlone, std::size(kBallAlone)}},
     {"dense", "33 lines.", {kDense, std::size(kDense)}},
-    {"tuned", "16 lines, a metre thick.", {kTuned, std::size(kTuned)}},
+    {"tuned", "16 lines, a smaller ball, a metre and a third thick.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"volumetric",
                        "Volumetric obscurance",
