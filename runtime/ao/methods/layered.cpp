@@ -44,7 +44,7 @@ const Parameter kParameters[] = {
     {"slices", "", 1, 32, 16, true, {}, "Slices of the hemisphere around the view ray; cost grows with slices x steps."},
     {"steps", "", 1, 64, 9, true, {}, "Samples to each side of a slice, each for a stratum out to the falloff's reach. Better raised before slices."},
     {"depth_layers", "", 0, 3, 1, true, {kLayerChoices, std::size(kLayerChoices)}, "What is read of what lies behind the visible surface; each more costs geometry passes."},
-    {kSheet.id, kSheet.unit, kSheet.minimum, kSheet.maximum, 0.2f, kSheet.integer, {}, kSheet.sentence},  // tuned
+    kSheet,
     {"thickness", "m", 0.01f, 1000, 0.5f, false, {}, "How thick everything is taken to be where there are no depth layers."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
     {"map", "px", 1, 3, 1, true, {}, "Pixels that one of the map stands for, each way: 2 does a quarter of the work and gathers over twice the width."},
