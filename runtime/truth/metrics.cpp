@@ -19,7 +19,7 @@ constexpr float kBorder = 0.1f;     // of each side
 struct Maps {
     Plane picture, reference, adjusted;
     float gamma = 1.0f;
-    Plane ssim, flip;
+    Plane ssim, flip;  // empty where pixels are scattered
 };
 
 double rmseAt(const Plane& a, const Plane& r, const Mask& mask, double gamma) {
@@ -84,6 +84,8 @@ Metrics judge(const Maps& maps, const Mask& mask) {
     metrics.raw = errors(maps.picture, maps.reference, mask);
     metrics.gamma = maps.gamma;
     metrics.adjusted = errors(maps.adjusted, maps.reference, mask);
+    metrics.perceptual = !maps.ssim.values.empty();
+    if (!metrics.perceptual) return metrics;
     metrics.ssim = meanOver(maps.ssim, mask);
     metrics.flipMean = meanOver(maps.flip, mask);
     metrics.flipWeightedMedian = weightedMedian(maps.flip, mask);
@@ -104,7 +106,7 @@ Plane checked(const Plane& plane, const Mask& valid, const char* which) {
     return out;
 }
 
-Maps mapsOf(const Plane& visibility, const Plane& reference, const Mask& valid) {
+Maps mapsOf(const Plane& visibility, const Plane& reference, const Mask& valid, bool scattered = false) {
     if (visibility.width != reference.width || visibility.height != reference.height)
         throw scene::Error(fmt::format("the picture is {} x {} pixels, its reference {} x {}", visibility.width, visibility.height, reference.width, reference.height));
     if (valid.size() != visibility.pixels())
@@ -115,6 +117,7 @@ Maps mapsOf(const Plane& visibility, const Plane& reference, const Mask& valid) 
     maps.gamma = bestGamma(maps.picture, maps.reference, valid);
     maps.adjusted = maps.picture;
     for (float& value : maps.adjusted.values) value = std::pow(value, maps.gamma);
+    if (scattered) return maps;
     maps.ssim = ssimMap(maps.picture, maps.reference);
     maps.flip = flip(maps.reference, maps.picture);
     return maps;
@@ -232,8 +235,16 @@ Regions regionsOf(const CapturedFrame& frame, const Mask& disoccluded) {
     return regions;
 }
 
+Regions everyNth(Regions regions, uint32_t width, uint32_t n) {
+    if (n <= 1) return regions;
+    for (Mask& mask : regions.masks)
+        for (size_t i = 0; i < mask.size(); ++i) mask[i] = mask[i] && i % width % n == 0 && i / width % n == 0;
+    regions.scattered = true;
+    return regions;
+}
+
 std::vector<RegionMetrics> compare(const Plane& visibility, const Plane& reference, const Regions& regions) {
-    const Maps maps = mapsOf(visibility, reference, regions[Region::whole]);
+    const Maps maps = mapsOf(visibility, reference, regions[Region::whole], regions.scattered);
     std::vector<RegionMetrics> all;
     for (size_t i = 0; i < kRegions; ++i) {
         if (regions.masks[i].empty()) continue;

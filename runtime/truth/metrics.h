@@ -27,6 +27,7 @@ struct Metrics {
     Errors raw;
     float gamma = 1.0f;  // g* = argmin RMSE(A^g, R), in [1/8, 8]
     Errors adjusted;     // of A^g*: what remains when only a "power" slider was missing
+    bool perceptual = true;  // false: the pixels were judged apart from each other, and what follows, which is of neighbourhoods, is not known
     float ssim = 0.0f;   // 11x11 Gaussian, sigma 1.5, C1 = 0.01^2, C2 = 0.03^2, mean over the region
     float flipMean = 0.0f;            // flip.h
     float flipWeightedMedian = 0.0f;  // the value v such that the pixels below v hold half of the summed error
@@ -39,6 +40,7 @@ inline constexpr std::array<const char*, kRegions> kRegionNames = {"whole", "hal
 // Where each region lies. An empty mask: not known, its metrics are left out.
 struct Regions {
     std::array<Mask, kRegions> masks;  // subsets of the valid pixels
+    bool scattered = false;            // masks hold pixels apart from each other: no SSIM, no FLIP
     const Mask& operator[](Region region) const { return masks[size_t(region)]; }
 };
 
@@ -46,6 +48,9 @@ struct Regions {
 // 8 px around what is nearer than its surroundings by more than 2 % and narrower than 4 px. border: the outer 10 % of each
 // side. disoccluded: `disoccluded` (one a visible pixel, from whoever reprojects), where given.
 Regions regionsOf(const CapturedFrame& frame, const Mask& disoccluded = {});
+
+// The same regions at every n-th pixel of each row and column alone, where a reference of RayOptions::stride n is known. 1 changes nothing.
+Regions everyNth(Regions regions, uint32_t width, uint32_t n);
 
 struct RegionMetrics {
     Region region;

@@ -76,6 +76,44 @@ TEST_F(OnAFrame, numbersPicturesAndTables) {
     EXPECT_NEAR(row["eA"].get<double>(), rows[0]["eA"].get<double>(), 1e-4);
 }
 
+TEST_F(OnAFrame, everyThirdPixelIsJudgedAsInTheWholeReference) {
+    const auto evaluate = [&](const std::string& more) {
+        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --target-error 0 --frames 1 --json '{}' {}", exr().string(),
+                                                camera().string(), (m_scratch / "e.json").string(), more));
+        EXPECT_EQ(ended.code, 0) << ended.error;
+        json row = json::parse(textOf(m_scratch / "e.json"))[0];
+        for (const char* key : {"reference", "milliseconds", "referenceRays", "referenceError"}) row.erase(key);
+        row["printed"] = ended.out;
+        return row;
+    };
+    const json whole = evaluate(fmt::format("--out '{}'", (m_scratch / "out").string()));
+    const truth::Picture reference = truth::readExr(m_scratch / "out/corner.capture.reference.exr");
+    json sparse = evaluate(fmt::format("--every 3 --out '{}'", (m_scratch / "few").string()));
+    json same = evaluate(fmt::format("--every 3 --reference '{}' --channel screen.quadratic_2", (m_scratch / "out/corner.capture.reference.exr").string()));
+
+    EXPECT_NE(sparse["printed"].get<std::string>().find("every 3 x 3 px"), std::string::npos) << sparse["printed"];
+    EXPECT_NE(sparse["printed"].get<std::string>().find(" - "), std::string::npos) << sparse["printed"];
+    sparse.erase("printed");
+    same.erase("printed");
+    for (const char* key : {"ssim", "flip", "flipWeightedMedian"}) {
+        EXPECT_TRUE(whole.contains(key)) << key;
+        EXPECT_FALSE(sparse.contains(key)) << key;
+        EXPECT_FALSE(sparse["regions"]["halo"].contains(key)) << key;
+    }
+    EXPECT_EQ(sparse, same);
+    EXPECT_EQ(sparse["every"], 3);
+    EXPECT_NEAR(sparse["pixels"].get<double>(), whole["pixels"].get<double>() / 9.0, 40.0);
+    EXPECT_NE(sparse["eA"], whole["eA"]);
+
+    // What was not traced is in no picture.
+    const truth::Picture few = truth::readExr(m_scratch / "few/corner.capture.reference.exr");
+    ASSERT_EQ(few.width, (reference.width + 2) / 3);
+    ASSERT_EQ(few.height, (reference.height + 2) / 3);
+    const truth::Plane all = reference.plane("screen.quadratic_2"), some = few.plane("screen.quadratic_2");
+    for (uint32_t y = 0; y < some.height; ++y)
+        for (uint32_t x = 0; x < some.width; ++x) ASSERT_EQ(some.at(x, y), all.at(3 * x, 3 * y)) << x << ", " << y;
+}
+
 TEST_F(OnAFrame, deviceDepthWorldNormalsAndOtherNamesAreTheSameFrame) {
     // The same frame as a host would dump it: seen from a camera in the world, reversed device depth, world normals.
     json camera = camera_();

@@ -77,6 +77,8 @@ TEST(Options, contradictionsAreOneComplaint) {
     EXPECT_NE(parse({"--scene", "toasters", "--channel", "a"}).find("--reference FILE.exr"), std::string::npos);
     EXPECT_NE(parse({"--capture", "f.exr", "--camera", "f.json", "--reference", "world"}).find("no triangles"), std::string::npos);
     EXPECT_NE(parse({"--capture", "f.exr", "--camera", "f.json", "--size", "64x36"}).find("leave out"), std::string::npos);
+    EXPECT_NE(parse({"--gallery", "--every", "4"}).find("--every excludes --gallery"), std::string::npos);
+    EXPECT_NE(parse({"--check-baseline", "b.json", "--every", "4"}).find("--every excludes --check-baseline"), std::string::npos);
     EXPECT_NE(parse({"--scene", "toasters", "--metod", "hbao"}).find("did you mean --method"), std::string::npos);
 }
 

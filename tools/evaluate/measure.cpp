@@ -103,6 +103,7 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
     result.time = shot.time;
     result.size = shot.frame.visible();
     result.guard = shot.frame.guard;
+    result.every = options.rays.every;
     result.seconds.frame = shot.seconds;
 
     for (const Candidate& candidate : options.candidates) machine.expectMethod(*shot.library, candidate.info());
@@ -117,8 +118,7 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
     result.seconds.methods = (app::now() - begun) * 1e-3;
 
     begun = app::now();
-    const truth::Regions regions = truth::regionsOf(shot.frame);
-    const truth::Mask valid = shot.frame.visibleMask();
+    const truth::Regions regions = truth::everyNth(truth::regionsOf(shot.frame), result.size.x, result.every);
     app::Progress progress("comparing", result.references.size());
     for (size_t r = 0; r < result.references.size(); ++r) {
         progress.at(r);
@@ -126,7 +126,7 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
             if (options.falloffs[result.drawn[d].falloff].text != result.references[r].falloff) continue;
             const truth::Plane &visibility = result.drawn[d].visibility, &reference = result.references[r].visibility;
             result.rows.push_back(
-                {d, r, options.errorsOnly ? meanError(visibility, reference, valid) : truth::compare(visibility, reference, regions)});
+                {d, r, options.errorsOnly ? meanError(visibility, reference, regions[truth::Region::whole]) : truth::compare(visibility, reference, regions)});
         }
     }
     result.seconds.metrics = (app::now() - begun) * 1e-3;

@@ -44,6 +44,7 @@ struct ShotResult {
     float time = 0.0f;
     truth::CapturedFrame frame;          // kept where it is written out; else without pixels
     glm::uvec2 size{0}, guard{0};        // visible part, guard band
+    uint32_t every = 1;                  // RayChoice::every
     std::vector<JudgedBy> references;
     std::vector<Drawn> drawn;
     std::vector<Row> rows;               // by reference, falloff, candidate

@@ -148,6 +148,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->check(CLI::Range(0.0f, 1.0f))
         ->capture_default_str();
     cli.add_option("--seed", options.rays.seed, "Of the rays")->capture_default_str();
+    auto* every = cli.add_option("--every", options.rays.every,
+                                 "Trace and judge every N-th pixel of each row and column alone: a large picture in 1/(N N) of the time; no SSIM and FLIP")
+                      ->check(CLI::Range(1u, 64u))
+                      ->capture_default_str();
     cli.add_flag("--no-cache", noCache, "Render references anew, keep none (they lie in the user's cache folder)");
 
     cli.option_defaults()->group("What comes out");
@@ -161,6 +165,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's cells when methods are named)");
     gallery->excludes(checkOption)->excludes(renewOption);
     checkOption->excludes(renewOption);
+    every->excludes(gallery)->excludes(checkOption)->excludes(renewOption);  // pages show whole pictures, baselines hold whole errors
 
     addDevice(cli, options.device, options.validation, options.verbose);
     cli.add_flag("--list-methods", list, "Print the methods and their presets");

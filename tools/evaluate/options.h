@@ -31,6 +31,7 @@ struct RayChoice {
     float targetError = 0.005f;  // standard error at which a pixel stops; 0: always `rays`
     uint32_t seed = 1;
     bool cache = true;
+    uint32_t every = 1;          // pixels from judged pixel to judged pixel, in rows and columns; no others are traced
 };
 
 // Against what is judged: references that are rendered, or a file of them.

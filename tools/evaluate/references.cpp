@@ -21,6 +21,7 @@ void setRays(OptionsOf& out, const RayChoice& rays) {
     if (rays.targetError <= 0.0f) out.minRays = rays.rays;
     out.targetError = rays.targetError;
     out.seed = rays.seed;
+    out.stride = rays.every;
 }
 
 truth::Plane open(const truth::Plane& obscurance) {

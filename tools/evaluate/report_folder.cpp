@@ -19,6 +19,15 @@ truth::Picture one(const char* channel, const truth::Plane& plane) {
     return picture;
 }
 
+// The judged pixels alone: where not all are, references and errors are smaller pictures, which nothing takes for whole ones.
+truth::Plane judged(const truth::Plane& plane, uint32_t every) {
+    if (every <= 1) return plane;
+    truth::Plane picture((plane.width + every - 1) / every, (plane.height + every - 1) / every);
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x) picture.at(x, y) = plane.at(x * every, y * every);
+    return picture;
+}
+
 std::string safe(std::string text) {
     for (char& c : text)
         if (!std::isalnum((unsigned char)c) && c != '.' && c != '-') c = '-';
@@ -30,10 +39,10 @@ void writeReferences(const fs::path& stem, const ShotResult& shot) {
     truth::Picture picture;
     for (const JudgedBy& reference : shot.references) {
         if (picture.find(reference.fileName)) continue;  // a stored channel may serve several falloffs
-        truth::Plane obscurance = reference.visibility;
+        truth::Plane obscurance = judged(reference.visibility, shot.every);
+        app::writePng(stem.string() + ".reference." + safe(reference.fileName) + ".png", greyPicture(obscurance));
         for (float& value : obscurance.values) value = 1.0f - value;
         picture.add(reference.fileName, std::move(obscurance));
-        app::writePng(stem.string() + ".reference." + safe(reference.fileName) + ".png", greyPicture(reference.visibility));
     }
     truth::writeExr(stem.string() + ".reference.exr", picture);
 }
@@ -61,7 +70,7 @@ void writeFolder(const std::vector<ShotResult>& shots, const Options& options, c
             const JudgedBy& reference = shot.references[row.reference];
             app::writePng(fmt::format("{}.{}.{}.error.{}.png", stem.string(), options.candidates[drawn.candidate].fileName(),
                                       options.falloffs[drawn.falloff].fileName(), safe(reference.fileName.substr(0, reference.fileName.find('.')))),
-                          errorPicture(drawn.visibility, reference.visibility));
+                          errorPicture(judged(drawn.visibility, shot.every), judged(reference.visibility, shot.every)));
         }
         writeReferences(stem, shot);
     }

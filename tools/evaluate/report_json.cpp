@@ -14,9 +14,11 @@ void putErrors(Json& json, const truth::Errors& errors) {
 
 void putMetrics(Json& json, const truth::Metrics& metrics) {
     putErrors(json, metrics.raw);
-    json["ssim"] = digits(metrics.ssim);
-    json["flip"] = digits(metrics.flipMean);
-    json["flipWeightedMedian"] = digits(metrics.flipWeightedMedian);
+    if (metrics.perceptual) {
+        json["ssim"] = digits(metrics.ssim);
+        json["flip"] = digits(metrics.flipMean);
+        json["flipWeightedMedian"] = digits(metrics.flipWeightedMedian);
+    }
     json["gamma"] = digits(metrics.gamma);
     putErrors(json["adjusted"], metrics.adjusted);
     json["pixels"] = metrics.pixels;
@@ -39,6 +41,7 @@ Json rowJson(const ShotResult& shot, const Row& row, const Options& options, con
     json["time"] = digits(shot.time);
     json["size"] = {shot.size.x, shot.size.y};
     json["guard"] = {shot.guard.x, shot.guard.y};
+    if (shot.every > 1) json["every"] = shot.every;
     putMetrics(json, row.whole());
     for (size_t i = 1; i < row.regions.size(); ++i)
         putMetrics(json["regions"][truth::kRegionNames[size_t(row.regions[i].region)]], row.regions[i].metrics);

@@ -7,9 +7,12 @@ namespace obscura::evaluate {
 namespace {
 
 std::string shotTitle(const ShotResult& shot) {
-    return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px", shot.scene, shot.camera, shot.time, shot.size.x, shot.size.y,
-                       shot.guard.x, shot.guard.y);
+    return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px{}", shot.scene, shot.camera, shot.time, shot.size.x, shot.size.y,
+                       shot.guard.x, shot.guard.y, shot.every > 1 ? fmt::format(", judged at every {} x {} px", shot.every, shot.every) : "");
 }
+
+// What is of neighbourhoods is a dash where pixels were judged apart from each other.
+std::string perceptual(const truth::Metrics& metrics, float value) { return metrics.perceptual ? fmt::format("{:.4f}", value) : "-"; }
 
 std::string secondsLine(const ShotResult& shot) {
     return fmt::format("frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s", shot.seconds.frame, shot.seconds.references,
@@ -46,10 +49,10 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             const Candidate& candidate = options.candidates[drawn.candidate];
             const truth::Metrics& m = row.whole();
             text += fmt::format(
-                "| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} | {:.4f} | {:.2f} | {:.4f} | {:.2f} |\n",
+                "| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} | {} | {:.2f} | {:.4f} | {:.2f} |\n",
                 candidate.info().id, candidate.preset, candidate.settings.empty() ? "" : " ", fmt::join(candidate.settings, " "),
                 shot.references[row.reference].falloff, shot.references[row.reference].kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99,
-                m.ssim, m.flipMean, m.gamma, m.adjusted.eA, drawn.milliseconds);
+                perceptual(m, m.ssim), perceptual(m, m.flipMean), m.gamma, m.adjusted.eA, drawn.milliseconds);
         }
         text +=
             "\n| method | preset | falloff | reference | region | pixels | eA | e<5% | bias | rmse | p99 | ssim |\n|---|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
@@ -57,10 +60,10 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             for (size_t i = 1; i < row.regions.size(); ++i) {
                 const truth::Metrics& m = row.regions[i].metrics;
                 const Candidate& candidate = options.candidates[shot.drawn[row.drawn].candidate];
-                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {:.4f} |\n", candidate.info().id,
+                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} |\n", candidate.info().id,
                                     candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
                                     truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse,
-                                    m.raw.p99, m.ssim);
+                                    m.raw.p99, perceptual(m, m.ssim));
             }
         text += "\n| method | preset | falloff | pass | ms |\n|---|---|---|---|--:|\n";
         for (const Drawn& drawn : shot.drawn) {
@@ -91,9 +94,9 @@ std::string textTable(const std::vector<ShotResult>& shots, const Options& optio
             const Drawn& drawn = shot.drawn[row.drawn];
             const JudgedBy& reference = shot.references[row.reference];
             const truth::Metrics& m = row.whole();
-            text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:7.4f} {:7.4f} {:8.2f}\n",
+            text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:>7} {:>7} {:8.2f}\n",
                                 options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, m.raw.eA,
-                                m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim, m.flipMean, drawn.milliseconds);
+                                m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), drawn.milliseconds);
         }
         text += referenceLines(shot, "  ") + "  " + secondsLine(shot) + "\n\n";
     }
