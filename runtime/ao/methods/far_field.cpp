@@ -11,7 +11,8 @@
 // - The four-dimensional table is exactly two-dimensional (shaders/ao/far_field/estimator.glsl).
 // - Samples start from where the receiver, raised by a pixel's footprint, is seen.
 // - Lines that are sky or outside are left out of means, by a third prefix sum that counts lines.
-// The default goes further: points hang on lines between slab and connection, are seen from above and below (s = 1), and are averaged as
+// The default goes further: points hang on lines between slab and connection (to the point walked over before, visible or not: a line to the
+// last visible one blocks what lies open between two columns), are seen from above and below (s = 1), and are averaged as
 // 1/depth by a lateral pyramid, which needs a sixth of the memory of prefix sums and no pass over every cell.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: table (when the falloff is new),
@@ -32,32 +33,34 @@ constexpr float kNine = 2;  // interleave: 3x3
 enum Estimator : uint32_t { kSlab, kConnected, kBlended };
 const char* const kEstimators[] = {"slab", "connected", "blended"};
 const char* const kParts[] = {"both", "near", "far"};
+const char* const kOffOn[] = {"off", "on"};
 const char* const kSparsities[] = {"every", "every 2nd", "every 4th"};
 
 const Parameter kParameters[] = {
     {"directions", "", 4, 32, 8, true, {}, "Directions in which the depth buffer is scanned, K; even numbers share walks between opposite ones."},
-    {"segments", "", 1, 8, 4, true, {}, "Parts of each sector, evaluated one by one; the cost per pixel grows with directions x segments."},
+    {"segments", "", 1, 8, 3, true, {}, "Parts of each sector, evaluated one by one; the cost per pixel grows with directions x segments."},
     {"interval", "px", 3, 20, 5, true, {}, "Shortest interval that keeps one point, B0; longer ones cost less and leave more to the near field."},
-    {"longest", "", 0.25f, 1, 0.75f, false, {}, "Longest interval, parts of its distance; the paper's is 1. Intervals run along a sector's middle, so long ones reach across its sides and leave bands."},
+    {"longest", "", 0.25f, 1, 0.5f, false, {}, "Longest interval, parts of its distance; the paper's is 1. Intervals run along a sector's middle, so long ones reach across its sides and leave bands."},
     {"lines", "", 0, 2, 0, true, {kSparsities, 3}, "Which of the lines, a pixel apart, are scanned."},
     {"slope", "", -2, 2, 1, false, {}, "Slope of the second angle at which intervals are seen, s; the paper's is -1, from above. 0 counts as 1."},
     {"estimator", "", 0, 2, 2, true, {kEstimators, 3}, "What stands below a point: a slab away from the camera as in the paper, the connection to the point before it, or between both."},
     {"averaging", "", 0, 3, 2, true, {kAveragings, 4}, "How points are averaged over a sector's width: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth; direct: single texels of the depth buffer, without scans."},
-    {"near", "", 0, 16, 3, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
+    {"near", "", 0, 16, 5, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
     {"parts", "", 0, 2, 0, true, {kParts, 3}, "What is shown: both fields, the near one alone, or the far one alone above the near one's horizon."},
     kInterleave,
     {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
     {"jitter", "", 0, 1, 0, false, {}, "How much of its segment a pixel's directions are turned by, at random: noise instead of bands. Not interleaved."},
+    {"alternate", "", 0, 1, 1, true, {kOffOn, 2}, "Every other pixel's directions are turned by half a segment: bands become a checkerboard too weak to be seen. Neither interleaved nor jittered."},
     {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
 };
-const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"interval", 5}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"alternate", 0}, {"interval", 5}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
 const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1},
                               {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kNine}};
-const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"interleave", kNine}};
-const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"thickness", 0.1f}, {"jitter", 1}};
+const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"near", 3}, {"interleave", kNine}};
+const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
-    {"default", "8 directions x 4 segments, blended estimator, lateral pyramid.", {}},
+    {"default", "8 directions x 3 segments, blended estimator, lateral pyramid.", {}},
     {"paper_8x2", "The paper's smaller setting.", {kPaper8, std::size(kPaper8)}},
     {"paper_16x2", "The paper's larger setting.", {kPaper16, std::size(kPaper16)}},
     {"paper_saao", "The paper's interleaved setting: 18 directions x 2 segments, blurred.", {kPaperSaao, std::size(kPaperSaao)}},
@@ -120,6 +123,7 @@ public:
         constants.paired = directions % 2 == 0;
         constants.thickness = thickness;
         constants.jitter = values["jitter"];
+        constants.alternate = side == 1 && constants.jitter <= 0.0f && values.count("alternate");
 
         const graph::BufferId grids = graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
         graph::ImageId cells = inputs.normals;  // something to bind where there are none

@@ -22,23 +22,23 @@ vec3 tableDifference(float phi1, float phi2, float v) {
 struct Horizon {
     float square;   // the cosine of its zenith angle, squared, with its sign: tells without a root what raises it
     float angle;
-    vec2 point;     // the last visible point, from the receiver; (u, z)
-    float follows;  // connection once there is such a point
+    float follows;  // connection once there is a visible point
     float blocked;  // what was gained, times |n_k|
 };
-Horizon horizonAt(float cosine) { return Horizon(cosine * abs(cosine), arcCosine(cosine), vec2(0.0), 0.0, 0.0); }
+Horizon horizonAt(float cosine) { return Horizon(cosine * abs(cosine), arcCosine(cosine), 0.0, 0.0); }
 
 // Whether a point in direction `to` (any length) from the receiver raises the horizon. Four points in five do not, and they are told by this
 // alone: walkers search for the next that does, then raise(). What lies beyond the zenith (u < 0) belongs to other sectors.
 bool raises(Horizon h, vec2 to) { return to.x > 0.0 && to.y * abs(to.y) > h.square * dot(to, to); }
 
-// `point` from the receiver, `slab` away from the camera (any length), both (u, z): along the sector and along the zenith. n: the normal
-// projected on this plane, not normalised. `found` false: there was no such point.
-void raise(inout Horizon h, vec2 point, vec2 slab, bool found, vec2 n, float connection, float unit) {
+// `point` from the receiver, `slab` away from the camera (any length), `before` the point looked at before it, visible or not, and how much of
+// the line leads there; all (u, z): along the sector and along the zenith. n: the normal projected on this plane, not normalised.
+// `found` false: there was no such point.
+void raise(inout Horizon h, vec2 point, vec2 slab, vec2 before, float connection, bool found, vec2 n, float unit) {
     point.x = max(point.x, 1e-9);
-    vec2 before = h.point - point;
+    before -= point;
     float longer = sqrt(max(dot(slab, slab), 1e-30) / max(dot(before, before), 1e-30));
-    vec2 line = slab * (1.0 - h.follows) + before * (h.follows * longer);  // the mean of two directions, as long as the slab or shorter
+    vec2 line = slab * (1.0 - connection * h.follows) + before * (connection * h.follows * longer);  // the mean of two directions, as long as the slab or shorter
     float inverse2 = 1.0 / max(dot(line, line), 1e-30), area = max(line.x * point.y - line.y * point.x, 0.0);
     float phi2 = arcTangent(area, dot(line, point)), angle = arcTangent(point.x, point.y), phi1 = max(phi2 - (h.angle - angle), 0.0);
     float b = area * sqrt(inverse2);
@@ -48,8 +48,7 @@ void raise(inout Horizon h, vec2 point, vec2 slab, bool found, vec2 n, float con
     h.blocked += found ? gained : 0.0;
     h.square = found ? point.y * abs(point.y) / dot(point, point) : h.square;
     h.angle = found ? angle : h.angle;
-    h.point = found ? point : h.point;
-    h.follows = found ? connection : h.follows;
+    h.follows = found ? 1.0 : h.follows;
 }
 
 #endif

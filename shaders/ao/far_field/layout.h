@@ -36,8 +36,9 @@ struct FarFieldConstants {
     float jitter;        // of directions, parts of a sector
     uint side;           // of the interleaving tile
     float longest;       // an interval may be, parts of its distance from the receiver
+    uint alternate;      // 1: every other pixel's directions are turned by half a segment
 };
-OBSCURA_SHARED_SIZE(FarFieldConstants, 64);
+OBSCURA_SHARED_SIZE(FarFieldConstants, 68);
 
 OBSCURA_SHARED_END
 #endif

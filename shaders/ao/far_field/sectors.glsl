@@ -25,9 +25,11 @@ struct Turn {
     float slope;  // of a sector's sides, lines per pixel of distance
     float shift;  // of all lines by jitter, the same
 };
-// All of a pixel's segments turned by one random angle [Timonen 2013, sec. 11.1].
+// All of a pixel's segments turned by one random angle [Timonen 2013, sec. 11.1], or to and fro on a checkerboard: what a finite number of
+// directions leaves as bands then alternates from pixel to pixel, too weak and too fine to be seen.
 Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
-    vec2 by = jitterAt(view, texel, kPi / float(c.directions * c.segments), c.jitter);
+    float halfWidth = kPi / float(c.directions * c.segments), quarter = ((texel.x + texel.y) & 1) == 0 ? 0.5 * halfWidth : -0.5 * halfWidth;
+    vec2 by = c.alternate != 0u ? vec2(cos(quarter), sin(quarter)) : jitterAt(view, texel, halfWidth, c.jitter);
     turn.first = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * by;
     turn.shift = by.y / by.x / c.lineStep;
     return turn;
@@ -60,11 +62,6 @@ struct Met {
 };
 // Whether a point that exists may block anything; add() it if so.
 bool counts(Met met, vec2 to) { return kThin != 0u || raises(met.horizon, to); }
-void add(inout Met met, Segment s, FarFieldConstants c, vec2 point, bool found, float share) {
-    vec2 slab = slabAt(s, point);
-    if (kThin != 0u) addSlab(met.bins, point, normalize(slab), c.thickness, found, s.n * share, c.unit);
-    else raise(met.horizon, point, slab, found, s.n * share, c.connection, c.unit);
-}
 float blockedOf(Met met) { return kThin != 0u ? met.bins.sum : met.horizon.blocked; }
 
 // Interval j of level n between lines `from` and `to`: (across, depth, over) as seenAt() takes them; over is 0 where there is nothing.
@@ -96,6 +93,13 @@ struct Found {
     float over;
     bool is;
 };
+// The connection to the point before, which need not be visible: surfaces between two visible points lie lower than the line between them. It may
+// also be none, or sky, which hides behind a slab.
+void add(inout Met met, Segment s, FarFieldConstants c, Found found, Found before, float share) {
+    vec2 point = found.to / max(found.over, 1e-12), slab = slabAt(s, point);
+    if (kThin != 0u) addSlab(met.bins, point, normalize(slab), c.thickness, found.is, s.n * share, c.unit);
+    else raise(met.horizon, point, slab, before.to / max(before.over, 1e-12), before.over > 0.0 ? c.connection : 0.0, found.is, s.n * share, c.unit);
+}
 
 // Sample i of the near field, (i + 0.6)^1.5 times `first` pixels away: denser near the receiver.
 Found nearPoint(Met met, Segment s, Receiver r, uint i, float first, float skyDepth) {
@@ -137,22 +141,25 @@ vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of what the near field blocks; it raises the horizon in any case
         // First to the next point that counts, then what it blocks: neighbouring pixels do either together. Loops end with their test: software
         // rasterisers run the body of one that begins with it once more for nobody.
+        Found found = Found(vec2(0.0), 0.0, false), before = found;
         while (true) {
-            Found found = Found(vec2(0.0), 1.0, false);
+            bool isFar = true;
             if (i < c.taps) {
                 while (true) {
+                    before = found;
                     found = nearPoint(met, s, r, i++, nearest, skyDepth);
                     if (found.is || i >= c.taps) break;
                 }
+                isFar = !found.is;
             }
-            bool isFar = !found.is;
             if (isFar && j < end) {
                 while (true) {
+                    before = found;
                     found = farPoint(met, s, r, at, c, j, low, low + step, skyDepth);
                     if (found.is || j >= end) break;
                 }
             }
-            add(met, s, c, found.to / max(found.over, 1e-12), found.is, isFar ? 1.0 : share);
+            add(met, s, c, found, before, isFar ? 1.0 : share);
             if (i >= c.taps && j >= end) break;
         }
         sum += s.weight * vec2(blockedOf(met), 1.0);

@@ -65,7 +65,7 @@ void main() {
             }
             vec2 slab = slabAt(s, point);
             if (kThin != 0u) addSlab(bins, point, normalize(slab), thick, found, s.n, metres);
-            else raise(h, point, slab, found, s.n, 0.0, metres);
+            else raise(h, point, slab, vec2(0.0), 0.0, found, s.n, metres);
         }
         sum += s.weight * vec2(kThin != 0u ? bins.sum : h.blocked, 1.0);
         along = next * along;
