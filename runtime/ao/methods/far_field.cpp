@@ -50,7 +50,7 @@ const Parameter kParameters[] = {
     kInterleave,
     {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
     {"jitter", "", 0, 1, 0, false, {}, "How much of its segment a pixel's directions are turned by, at random: noise instead of bands. Not interleaved."},
-    {"alternate", "", 0, 1, 1, true, {kOffOn, 2}, "Every other pixel's directions are turned by half a segment: bands become a checkerboard too weak to be seen. Neither interleaved nor jittered."},
+    {"alternate", "", 0, 1, 1, true, {kOffOn, 2}, "Every other pixel's directions are turned by half a segment: bands become a fine checkerboard, weak but beside tall things. Neither interleaved nor jittered."},
     {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
 };
 const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};

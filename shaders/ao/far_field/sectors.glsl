@@ -26,7 +26,7 @@ struct Turn {
     float shift;  // of all lines by jitter, the same
 };
 // All of a pixel's segments turned by one random angle [Timonen 2013, sec. 11.1], or to and fro on a checkerboard: what a finite number of
-// directions leaves as bands then alternates from pixel to pixel, too weak and too fine to be seen.
+// directions leaves as bands then alternates from pixel to pixel: finer, and weak but right beside tall things.
 Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
     float halfWidth = kPi / float(c.directions * c.segments), quarter = ((texel.x + texel.y) & 1) == 0 ? 0.5 * halfWidth : -0.5 * halfWidth;
     vec2 by = c.alternate != 0u ? vec2(cos(quarter), sin(quarter)) : jitterAt(view, texel, halfWidth, c.jitter);
