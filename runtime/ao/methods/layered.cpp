@@ -45,19 +45,19 @@ const Parameter kParameters[] = {
     {"steps", "", 1, 64, 9, true, {}, "Samples to each side of a slice, each for a stratum out to the falloff's reach. Better raised before slices."},
     {"depth_layers", "", 0, 3, 1, true, {kLayerChoices, std::size(kLayerChoices)}, "What is read of what lies behind the visible surface; each more costs geometry passes."},
     kSheet,
-    {"thickness", "m", 0.01f, 1000, 0.5f, false, {}, "How thick everything is taken to be where there are no depth layers."},
+    {"thickness", "m", 0.01f, 1000, 0.25f, false, {}, "How thick everything is taken to be where there are no depth layers."},
     {"max_pixels", "px", 8, 4096, 4096, false, {}, "Longest reach on the screen; shorter is kinder to caches and wrong close up."},
     {"map", "px", 1, 3, 1, true, {}, "Pixels that one of the map stands for, each way: 2 does a quarter of the work and gathers over twice the width."},
     {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
-const Setting kFast[] = {{"steps", 6}, {"depth_layers", float(LayerUse::none)}, {"map", 2}};
+const Setting kFast[] = {{"steps", 8}, {"depth_layers", float(LayerUse::none)}, {"map", 2}};
 const Setting kFastest[] = {{"steps", 4}, {"depth_layers", float(LayerUse::none)}, {"map", 3}};
 const Setting kQuality[] = {{"slices", 12}, {"depth_layers", float(LayerUse::second)}, {"interleave", 1}};
 const Setting kReference[] = {{"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
     {"default", "18 samples, a slice a pixel, thickness: one more geometry pass.", {}},
     {"fastest", "8 samples for nine pixels and no layers.", {kFastest, std::size(kFastest)}},
-    {"fast", "12 samples for four pixels and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
+    {"fast", "16 samples for four pixels and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
     {"quality", "54 samples, three slices a pixel, thickness and a second surface.", {kQuality, std::size(kQuality)}},
     {"reference", "1024 samples, nothing shared out: what the layers hold.", {kReference, std::size(kReference)}},
 };
