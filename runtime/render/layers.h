@@ -26,9 +26,10 @@ private:
 class LayersPass {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayersPass& out);
-    // As ao::DepthLayers describes them, guard band included; no second one with LayerUse::first. Peeling then finds a single hit, to
-    // which solids within solids are sheets; the ladder always finds three. LayerForm::best is peeling then, else what a trial on this
-    // device has found cheaper. Where fragments cannot write, the ladder is peeling.
+    // As ao::DepthLayers describes them, guard band included; no second one with LayerUse::first. Where two surfaces are asked for, both
+    // forms find three hits and the same pictures to the bit. Where one is, peeling finds a single hit and takes what holds another solid
+    // for a sheet; the ladder still finds three, and with them where that ends. LayerForm::best is peeling for one surface, else what a
+    // trial on this device has found cheaper. Where fragments cannot write, the ladder is peeling.
     // `list` must stay until the graph has run.
     ao::LayerSources add(graph::Graph& graph, const GBuffer& gbuffer, graph::BufferId frame, graph::BufferId items, const DrawList& list,
                          const Deform::Posed& posed, Materials& materials, ao::LayerUse use, LayerForm form);
