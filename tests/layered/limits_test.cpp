@@ -59,7 +59,7 @@ TEST_F(LayeredTest, everySizeAndSkyGiveFiniteValues) {
     const std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::cylinder, {0.2f, 0, -2}, {0.1f, 0, 0}}};
     for (const auto& [width, height, guard] : {std::tuple{8u, 8u, 0u}, {9u, 13u, 0u}, {37u, 21u, 4u}, {64u, 40u, 7u}})
         for (const bool half : {false, true})
-            for (const char* preset : {"default", "fastest", "fast", "quality", "reference"}) {
+            for (const char* preset : {"default", "fastest", "fast", "balanced", "quality", "reference"}) {
                 const Room room = frameOf(world, width, height, guard, half);
                 for (const float a : run(room, values({}, preset), "exponential:1")) EXPECT_TRUE(a >= 0.0f && a <= 1.0f) << width << "x" << height << " " << preset;
             }

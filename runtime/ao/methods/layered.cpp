@@ -50,14 +50,16 @@ const Parameter kParameters[] = {
     {"map", "px", 1, 3, 1, true, {}, "Pixels that one of the map stands for, each way: 2 does a quarter of the work and gathers over twice the width."},
     {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
-const Setting kFast[] = {{"steps", 8}, {"depth_layers", float(LayerUse::none)}, {"map", 2}};
+const Setting kFast[] = {{"steps", 9}, {"depth_layers", float(LayerUse::none)}, {"map", 2}};
 const Setting kFastest[] = {{"steps", 4}, {"depth_layers", float(LayerUse::none)}, {"map", 3}};
+const Setting kBalanced[] = {{"steps", 8}, {"depth_layers", float(LayerUse::none)}};
 const Setting kQuality[] = {{"slices", 12}, {"depth_layers", float(LayerUse::second)}, {"interleave", 1}};
 const Setting kReference[] = {{"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
     {"default", "18 samples, a slice a pixel, thickness: one more geometry pass.", {}},
     {"fastest", "8 samples for nine pixels and no layers.", {kFastest, std::size(kFastest)}},
-    {"fast", "16 samples for four pixels and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
+    {"fast", "18 samples for four pixels and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
+    {"balanced", "16 samples at every pixel, no layers.", {kBalanced, std::size(kBalanced)}},
     {"quality", "54 samples, three slices a pixel, thickness and a second surface.", {kQuality, std::size(kQuality)}},
     {"reference", "1024 samples, nothing shared out: what the layers hold.", {kReference, std::size(kReference)}},
 };
