@@ -12,9 +12,10 @@
 // pi/2 - (asin c + c sqrt(1 - c^2)), and the bracket is a polynomial to 0.0014.
 //
 // Distances are those to the nearest point of a solid's span (a receiver behind a thing sees its back), to the front of
-// sheets and endless ones. Without depth layers everything has an assumed thickness; with the first layer alone the second
-// surface is left out, which is the default: half of the layers' cost for about a tenth more error. A second layer of half size is resolved to whole pixels when surfaces are packed. Samples far from the pixel come from coarser
-// levels of the packed texels (ao/common/spans.glsl).
+// sheets and endless ones. Without depth layers everything has an assumed thickness; with the first layer alone the second surface is
+// left out, which is the default: half of the layers' cost for about a tenth more error. A second layer of half size is resolved to
+// whole pixels when surfaces are packed. Samples far from the pixel come from coarser levels of the packed texels
+// (ao/common/spans.glsl).
 //
 // Reads linear depth, normals and depth layers, guard band included; writes visibility of the visible part. Passes: spans
 // (all of it in one texel), segments, gather, with a map upsample. Slices are shared out among the pixels of a tile, and there is no other noise: a gather
