@@ -34,6 +34,7 @@ layout(push_constant) uniform Constants {
     uint map;       // pixels that one of these stands for, each way
 };
 
+const float kAbove = 0.002;          // sine above the pixel's own plane from which on things cover it
 const float kFlat = 0.1;             // sine of the angle up to which two samples share a plane
 const float kRise = 0.012;           // depths that a surface may rise over a stratum when they do not
 const float kNextStep = 0.61803399;  // slices do not sample in one rhythm
@@ -125,12 +126,12 @@ void main() {
                 half_.at = inside ? l : half_.at;
                 half_.reached = inside ? (f1 == end ? max(e1, l) : l) : half_.reached;
                 float nearest = hollow ? abs(plane) * inversesqrt(max(dot(ns, ns), 1e-20)) : 1e9;
-                bool above = dot(d, here.n) > 0.001 * length(d);  // the pixel's own plane covers nothing
+                bool above = dot(d, here.n) > kAbove * length(d);  // the pixel's own plane covers nothing
                 span(half_, rho, ray0, ray, ray1, f0, f, f1, matter.firstLength, nearest, inside && above && !isSky(view, zs));
 #ifdef TWO_SPANS
                 float g = matter.second - z;
                 vec3 b = vec3(ray.offset, 0.0) + g * ray.dir;
-                bool behind = dot(b, here.n) > 0.001 * length(b);
+                bool behind = dot(b, here.n) > kAbove * length(b);
                 span(half_, rho, ray0, ray, ray1, g, g, g, matter.secondLength, 1e9, inside && behind && matter.second > 0.0);
 #endif
                 if (++i >= steps) break;
