@@ -7,6 +7,8 @@
 // With depth layers a sample raises no horizon: it covers the sines from its front to its back, of 32 parts each but once.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part; then the shared gather and denoiser.
+#include <iterator>
+
 #include "ao/resolve.h"
 #include "ao/spans.h"
 
@@ -40,11 +42,11 @@ const Parameter kParameters[] = {
     {"denoise", "", 0, 1, 1, true, {}, "Depth- and normal-aware 5x5 blur over the 4x4 noise tile."},
 };
 const Setting kFast[] = {{"directions", 8}, {"steps", 4}};
-const Setting kTuned[] = {{"spacing", 0.6f}, {"axis", 1}, {"sample_test", 1}};
+const Setting kTuned[] = {{"directions", 14}, {"bias", 9.74f}, {"spacing", 0.904f}, {"axis", 1}, {"sample_test", 1}};
 const Preset kPresets[] = {
     {"default", "16 directions x 8 steps, as in the paper.", {}},
     {"8x4", "A quarter of the samples.", {kFast, 2}},
-    {"tuned", "16 x 8, the view ray as axis, samples denser near the pixel, none that the tangent plane rules out.", {kTuned, 3}},
+    {"tuned", "14 x 8, the view ray as axis, samples denser near the pixel, none that the tangent plane rules out.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"hbao",
                        "Horizon-based ambient occlusion",

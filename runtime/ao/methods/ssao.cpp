@@ -33,11 +33,11 @@ const Parameter kParameters[] = {
     {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "Over the 4x4 noise tile: the mean of 4x4 as published, or along the surface."},
 };
 const Setting kFast[] = {{"samples", 16}};
-const Setting kTuned[] = {{"samples", 32}, {"kernel", 1}, {"radius_scale", 0.7f}, {"bias", 0.01f}, {"denoise", kSurface}};
+const Setting kTuned[] = {{"samples", 29}, {"kernel", 1}, {"radius_scale", 0.7f}, {"bias", 0.00262f}, {"denoise", kSurface}};
 const Preset kPresets[] = {
     {"default", "64 points as published.", {}},
     {"fast", "16 of them.", {kFast, std::size(kFast)}},
-    {"tuned", "32 cosine-weighted points as far out as the falloff counts, blurred along the surface.", {kTuned, std::size(kTuned)}},
+    {"tuned", "29 cosine-weighted points as far out as the falloff counts, blurred along the surface.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"ssao",
                        "Screen-space ambient occlusion",

@@ -67,15 +67,16 @@ float between(float a, float b) { return 2.0 * a * b / max(a + b, 1e-20); }
 
 // A span over the stratum from e0 by l to e1: front at depth differences f0, f, f1, `size` long at l. A solid's back stays at its
 // depth, for solids are round, unless that would halve it; a sheet's follows its front. `nearest`: distance that it comes to before l,
-// where e0 lies behind something else.
-void span(inout Side side, FalloffBlock rho, Ray e0, Ray l, Ray e1, float f0, float f, float f1, float size, float nearest, bool counts) {
+// where e0 lies behind something else. `least`: how long a solid counts at least as cover.
+void span(inout Side side, FalloffBlock rho, Ray e0, Ray l, Ray e1, float f0, float f, float f1, float size, float nearest, float least, bool counts) {
     bool solid = size > 0.0;
     float b = f + abs(size), b0 = solid ? max(f0 + 0.5 * size, b) : f0 - size, b1 = solid ? max(f1 + 0.5 * size, b) : f1 - size;
     float d = distanceTo(l, f, solid ? b : f), d0 = min(distanceTo(e0, f0, solid ? b0 : f0), min(d, nearest)), d1 = distanceTo(e1, f1, solid ? b1 : f1);
     float w0 = falloff(rho, between(d, d0)), w1 = falloff(rho, between(d, d1));
-    float front = cosine(l, f), back = cosine(l, b);
-    cover(side, counts ? max(front, cosine(e0, f0)) : 1.0, counts ? min(back, cosine(e0, b0)) : 1.0, w0);
-    cover(side, counts ? max(front, cosine(e1, f1)) : 1.0, counts ? min(back, cosine(e1, b1)) : 1.0, w1);
+    float more = solid ? max(least - size, 0.0) : 0.0;
+    float front = cosine(l, f), back = cosine(l, b + more);
+    cover(side, counts ? max(front, cosine(e0, f0)) : 1.0, counts ? min(back, cosine(e0, b0 + more)) : 1.0, w0);
+    cover(side, counts ? max(front, cosine(e1, f1)) : 1.0, counts ? min(back, cosine(e1, b1 + more)) : 1.0, w1);
 }
 
 #endif
