@@ -46,7 +46,7 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
     const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
                       std::min(blocking.reach, kFarthest), blocking.thickness};
-    const graph::ImageId spans = blocking.sheet >= 0.0f ? m_spans.add(graph, inputs, blocking.sheet, 0.0f) : graph::ImageId{};
+    const graph::ImageId spans = blocking.sheet >= 0.0f ? m_spans.add(graph, inputs, blocking.sheet) : graph::ImageId{};
     graph::Pass& pass = graph.pass("offscreen.trace", (spans ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
     pass.read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth).read(inputs.normals).write(map).write(receivers);
     if (spans) pass.read(spans);

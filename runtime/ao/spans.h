@@ -1,6 +1,6 @@
 // Depth layers as methods sample them: one texel holds depth, normal and up to two spans of matter along the view ray. One load serves
 // for all of it, and what layers leave unsaid is settled once a pixel: how thick open sheets are, what a second surface of half size
-// means at an edge, how thick everything is where there are none.
+// means at an edge.
 #pragma once
 
 #include "ao/method.h"
@@ -11,13 +11,12 @@ class SpansPass {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SpansPass& out);
     // Two spans a texel, R32G32B32A32_UINT, or the first alone, R32G32_UINT: view.size and coarser levels beside it, laid out as
-    // shaders/ao/common/spans.glsl says. `sheet`: how thick surfaces are that no back face follows; `assumed`: how thick everything is
-    // where the frame has no layers; metres.
+    // shaders/ao/common/spans.glsl says. `sheet`: how thick surfaces are that no back face follows, metres. The frame has a first layer.
     enum class Spans : uint8_t { one, two };
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, float sheet, float assumed, Spans spans = Spans::two);
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, float sheet, Spans spans = Spans::two);
 
 private:
-    gpu::Program m_one[2], m_two[3];  // by the layers that there are
+    gpu::Program m_one, m_two[2];  // by the layers that there are
 };
 
 // What a method that can do without has of them. Named as renderers and layersOf() look for it.

@@ -89,7 +89,7 @@ public:
         const auto& visible = inputs.view.visible;
         const Constants constants{stretched(inputs.falloff, values["radius_scale"]), values.count("slices"), values.count("steps"),
                                   values["mip_offset"], values["power"], values["floor"], values.count("axis")};
-        const graph::ImageId spans = inputs.layers.thickness ? m_spans.add(graph, inputs, values["sheet"], 0.0f) : graph::ImageId{};
+        const graph::ImageId spans = inputs.layers.thickness ? m_spans.add(graph, inputs, values["sheet"]) : graph::ImageId{};
         const graph::ImageId depths = spans ? inputs.depth : m_depths.add(graph, inputs, "gtao.depths", kNearRange * constants.falloff.reach);
         const graph::ImageId noisy = graph.image("gtao.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});
         graph::Pass& pass = graph.pass("gtao.horizons", (spans ? m_layered : m_horizons)[values.count("weighting")]);

@@ -75,7 +75,7 @@ public:
                                   values["spacing"], values.count("axis"), values.count("sample_test"), side};
         const auto& visible = inputs.view.visible;
         graph::ImageId visibility = graph.image("hbao.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        const graph::ImageId spans = inputs.layers.thickness ? m_spans.add(graph, inputs, values["sheet"], 0.0f) : graph::ImageId{};
+        const graph::ImageId spans = inputs.layers.thickness ? m_spans.add(graph, inputs, values["sheet"]) : graph::ImageId{};
         graph::Pass& pass = graph.pass("hbao.horizons", spans ? m_layered : m_horizons);
         pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility);
         if (spans) pass.read(spans);

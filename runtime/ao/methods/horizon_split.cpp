@@ -121,7 +121,7 @@ public:
         if (constants.rays) {
             const graph::ImageId above = graph.image("horizon_split.above horizon", picture), both = graph.image("horizon_split.visibility", picture);
             const bool inVoxels = values.count("rays_in") && inputs.volume;
-            const graph::ImageId spans = inputs.layers.thickness && !inVoxels ? m_spans.add(graph, inputs, values["sheet"], 0.0f) : graph::ImageId{};
+            const graph::ImageId spans = inputs.layers.thickness && !inVoxels ? m_spans.add(graph, inputs, values["sheet"]) : graph::ImageId{};
             graph::Pass& pass = graph.pass("horizon_split.normal rays", inVoxels ? m_voxelRays[size_t(inputs.volume.structure)] : spans ? m_layerRays : m_normalRays);
             pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(result).read(horizons).write(above).write(both);
             if (spans) pass.read(spans);

@@ -15,13 +15,14 @@
 // sheets and endless ones. Without depth layers everything has an assumed thickness; with the first layer alone the second surface is
 // left out, which is the default: half of the layers' cost for about a tenth more error. A second layer of half size is resolved to
 // whole pixels when surfaces are packed. Samples far from the pixel come from coarser levels of the packed texels
-// (ao/common/spans.glsl).
+// (ao/common/spans.glsl). Without layers there is nothing to pack: samples read depth and normal.
 //
 // Reads linear depth, normals and depth layers, guard band included; writes visibility of the visible part. Passes: spans
 // (all of it in one texel), segments, gather, with a map upsample. Slices are shared out among the pixels of a tile, and there is no other noise: a gather
 // along the surface that weighs each share alike takes more of it out than a bell-shaped blur, and leaves no tile. Where time is
 // short, a map of some of the pixels does all this, gathers over its own tiles, and is then shared out along surfaces.
 #include <iterator>
+#include <string>
 
 #include "ao/resolve.h"
 #include "ao/spans.h"
@@ -35,6 +36,7 @@ struct Constants {  // segments.comp
     float maxPixels;
     uint32_t side;      // of the interleaving tile
     uint32_t map;       // pixels that one of the parts stands for, each way
+    float assumed;      // thickness where there are no layers, metres
 };
 struct Window {         // gather.glsl
     uint32_t map, before, taps;
@@ -51,15 +53,15 @@ const Parameter kParameters[] = {
     {"map", "px", 1, 3, 1, true, {}, "Pixels that one of the map stands for, each way: 2 does a quarter of the work and gathers over twice the width."},
     {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
-const Setting kFast[] = {{"steps", 9}, {"depth_layers", float(LayerUse::none)}, {"map", 2}};
-const Setting kFastest[] = {{"steps", 4}, {"depth_layers", float(LayerUse::none)}, {"map", 3}};
+const Setting kFast[] = {{"steps", 11}, {"depth_layers", float(LayerUse::none)}, {"map", 2}};
+const Setting kFastest[] = {{"steps", 6}, {"depth_layers", float(LayerUse::none)}, {"map", 3}};
 const Setting kBalanced[] = {{"steps", 8}, {"depth_layers", float(LayerUse::none)}};
 const Setting kQuality[] = {{"slices", 12}, {"depth_layers", float(LayerUse::second)}, {"interleave", 1}};
 const Setting kReference[] = {{"steps", 32}, {"depth_layers", float(LayerUse::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
     {"default", "18 samples, a slice a pixel, thickness: one more geometry pass.", {}},
-    {"fastest", "8 samples for nine pixels and no layers.", {kFastest, std::size(kFastest)}},
-    {"fast", "18 samples for four pixels and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
+    {"fastest", "12 samples for nine pixels and no layers.", {kFastest, std::size(kFastest)}},
+    {"fast", "22 samples for four pixels and no layers: everything has the assumed thickness.", {kFast, std::size(kFast)}},
     {"balanced", "16 samples at every pixel, no layers.", {kBalanced, std::size(kBalanced)}},
     {"quality", "54 samples, three slices a pixel, thickness and a second surface.", {kQuality, std::size(kQuality)}},
     {"reference", "1024 samples, nothing shared out: what the layers hold.", {kReference, std::size(kReference)}},
@@ -77,23 +79,24 @@ public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Layered>();
         if (SpansPass::create(device, shaders, result->m_spans) != Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/layered/segments.comp", {}, result->m_segments[0]) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/layered/segments_two.comp", {}, result->m_segments[1]) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/layered/gather.comp", {}, result->m_gather[0]) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/layered/gather_map.comp", {}, result->m_gather[1]) != gpu::Status::ok) return nullptr;
+        const struct { const char* name; gpu::Program* program; } programs[] = {
+            {"segments_none", &result->m_segments[0]}, {"segments", &result->m_segments[1]}, {"segments_two", &result->m_segments[2]},
+            {"gather", &result->m_gather[0]}, {"gather_map", &result->m_gather[1]}};
+        for (const auto& [name, program] : programs)
+            if (gpu::Program::compute(device, shaders, std::string("ao/layered/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;
         return result;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const bool two = bool(inputs.layers.second);
-        const graph::ImageId spans = m_spans.add(graph, inputs, values["sheet"], values["thickness"], two ? SpansPass::Spans::two : SpansPass::Spans::one);
+        const uint32_t layers = !inputs.layers.thickness ? 0 : !inputs.layers.second ? 1 : 2;
+        const graph::ImageId spans = layers == 0 ? inputs.depth : m_spans.add(graph, inputs, values["sheet"], layers == 2 ? SpansPass::Spans::two : SpansPass::Spans::one);
         const uint32_t side = tileSide(values), slices = sharedOut(values.count("slices"), side) / (side * side);
         const uint32_t map = values.count("map"), width = (visible.x + map - 1) / map, height = (visible.y + map - 1) / map;
-        const Constants constants{inputs.falloff, slices, values.count("steps"), values["max_pixels"], side, map};
+        const Constants constants{inputs.falloff, slices, values.count("steps"), values["max_pixels"], side, map, values["thickness"]};
         graph::ImageId parts = graph.image("layered.parts", {VK_FORMAT_R32G32_UINT, width, height});
         const graph::ImageId visibility = graph.image("layered.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("layered.segments", m_segments[two]).read(inputs.viewBlock).read(inputs.normals).read(spans).write(parts).constants(constants)
+        graph.pass("layered.segments", m_segments[layers]).read(inputs.viewBlock).read(inputs.normals).read(spans).write(parts).constants(constants)
             .dispatch(width, height);
         const Window tile{map, side / 2, side / 2 * 2 + 1, 0.5f * float(side) + 0.5f}, four{map, 0, 2, 1.0f};
         if (map > 1) {
@@ -114,7 +117,7 @@ public:
 
 private:
     SpansPass m_spans;
-    gpu::Program m_segments[2];  // of one span, of two
+    gpu::Program m_segments[3];  // without layers, of one span, of two
     gpu::Program m_gather[2];    // to pixels, to a map's
 };
 

@@ -18,10 +18,9 @@ layout(set = 0, binding = 5, rgba32ui) uniform writeonly uimage2D spans;
 #endif
 layout(push_constant) uniform Constants {
     float sheet;    // thickness of open sheets, metres
-    float assumed;  // and of everything where there is no layer
     uint shift;     // 1: the second layer is of half size
 };
-layout(constant_id = 0) const uint kLayers = 2u;  // that there are
+layout(constant_id = 0) const uint kLayers = 2u;  // that there are, 1 or 2
 
 // As stored: what is no solid is told apart by its sign. All is at least half a pixel thick.
 float lengthOf(float t, float sheetThick, float leastThick) {
@@ -41,8 +40,8 @@ void main() {
     uint normal = imageLoad(normals, p).x;
     vec3 position = eyePosition(view, vec2(p) + 0.5, z);
     float slant = 1.0 / max(abs(dot(unpackNormal(normal), towardsEye(view, position))), 0.05);
-    float t = kLayers > 0u ? texelFetch(thickness, p, 0).x : 0.0;
-    Spans result = Spans(z, kLayers > 0u ? lengthOf(t, sheet * slant, leastThick) : -min(assumed, kEndless), 0.0, 1.0);
+    float t = texelFetch(thickness, p, 0).x;
+    Spans result = Spans(z, lengthOf(t, sheet * slant, leastThick), 0.0, 1.0);
     if (kLayers > 1u) {
         ivec2 chosen = p >> int(shift);
         vec2 found = texelFetch(second, chosen, 0).xy;

@@ -5,7 +5,7 @@
 //     camera's axis; w: linear depth of the second, bits of a float, 0: there is none
 // One span, RG32UI:
 //     x: linear depth, bits of a float; y: octahedral normal in two signed bytes, above it the half of the length
-// A negative length says that the distance to the span is that to its front: it is a sheet, or endless, or only assumed. To what is
+// A negative length says that the distance to the span is that to its front: it is a sheet, or endless. To what is
 // solid, length above 0, the distance is that to its nearest point: what stands behind it sees its back.
 // Coarser levels lie beside it, as depth_mips.glsl says: a texel of level n is one of the 2^n x 2^n pixels under it, whole, another in
 // every row and column, so that nothing is mixed and nothing thin is missed by all. Samples far away find theirs in fewer cache lines.

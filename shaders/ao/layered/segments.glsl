@@ -1,6 +1,6 @@
 // Segments of occlusion around each pixel: for every slice and step what the depth layers hold there covers part of the
 // hemisphere, once, with the falloff of where it stands. Formulas in runtime/ao/methods/layered.cpp.
-// In: normals and spans (one of matter, or with TWO_SPANS two), guard band included. Out: what they block and what they could, of each pixel
+// In: normals and spans (one of matter, with TWO_SPANS two; with NO_SPANS depth, and all is as thick as assumed), guard band included. Out: what they block and what they could, of each pixel
 // or, with a map, of some (parts.glsl).
 #ifndef OBSCURA_SEGMENTS_GLSL
 #define OBSCURA_SEGMENTS_GLSL
@@ -13,17 +13,6 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
-#ifdef TWO_SPANS
-#define PACKED uvec4
-layout(set = 0, binding = 2, rgba32ui) uniform readonly uimage2D spans;
-PACKED spansAt(ivec2 at) { return imageLoad(spans, at); }
-Spans matterOf(PACKED texel) { return unpackSpans(texel); }
-#else
-#define PACKED uvec2
-layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D spans;
-PACKED spansAt(ivec2 at) { return imageLoad(spans, at).xy; }
-Spans matterOf(PACKED texel) { return unpackSpan(texel); }
-#endif
 layout(set = 0, binding = 3, rg32ui) uniform writeonly uimage2D parts;
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
@@ -32,7 +21,34 @@ layout(push_constant) uniform Constants {
     float maxPixels;
     uint side;      // of the tile whose pixels share the slices out
     uint map;       // pixels that one of these stands for, each way
+    float assumed;  // thickness of everything where there are no layers, metres
 };
+
+// What there is at a pixel, which a texel of a coarser level holds: its matter and, of any length, its normal.
+#if defined(NO_SPANS)
+layout(set = 0, binding = 2, r32f) uniform readonly image2D depth;
+float depthAt(ivec2 pixel) { return imageLoad(depth, pixel).x; }
+Spans matterAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
+    normal = directionOf(imageLoad(normals, pixel).x);
+    return Spans(depthAt(pixel), -abs(assumed), 0.0, 1.0);
+}
+#elif defined(TWO_SPANS)
+layout(set = 0, binding = 2, rgba32ui) uniform readonly uimage2D spans;
+float depthAt(ivec2 pixel) { return uintBitsToFloat(imageLoad(spans, pixel).x); }
+Spans matterAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
+    uvec4 packed = imageLoad(spans, texel);
+    normal = normalOf(packed);
+    return unpackSpans(packed);
+}
+#else
+layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D spans;
+float depthAt(ivec2 pixel) { return uintBitsToFloat(imageLoad(spans, pixel).x); }
+Spans matterAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
+    uvec2 packed = imageLoad(spans, texel).xy;
+    normal = normalOf(packed);
+    return unpackSpan(packed);
+}
+#endif
 
 const float kAbove = 0.002;          // sine above the pixel's own plane from which on things cover it
 const float kFlat = 0.1;             // sine of the angle up to which two samples share a plane
@@ -54,7 +70,7 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(parts)))) return;
     ivec2 texel = pixelOfMap(p, map, ivec2(view.visible)) + ivec2(view.guard), last = ivec2(view.size) - 1, padded = paddedSize(view.size);
-    float z = uintBitsToFloat(spansAt(texel).x);
+    float z = depthAt(texel), thick = assumed;
     if (isSky(view, z)) {
         imageStore(parts, p, uvec4(packPart(z, vec3(0.0, 0.0, 1.0), 0.0, 1.0), 0u, 0u));
         return;
@@ -103,9 +119,8 @@ void main() {
                 bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
                 int level = levelFor(l);
                 ivec2 cell = clamp(ivec2(at), ivec2(0), last) >> level, q = pixelIn(cell, level, last);
-                PACKED packed = spansAt(cell + mipTexel(padded, ivec2(0), level));
-                Spans matter = matterOf(packed);
-                vec3 ns = normalOf(packed);  // its length does not matter
+                vec3 ns;
+                Spans matter = matterAt(q, cell + mipTexel(padded, ivec2(0), level), thick, ns);
                 Ray ray = rayAt(here, (vec2(q) + 0.5 - pixel) * view.unproject.xy);
                 float zs = matter.first, f = zs - z;
 
