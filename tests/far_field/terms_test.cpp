@@ -164,7 +164,7 @@ TEST(FarFieldGrid, levelsDoNotOverlapAndOppositesMirror) {
 TEST(FarFieldGrid, memory) {
     printf("bytes of far_field's cells, MB (beside them: the table, 128 KB, and pictures of the visible size)\n");
     for (const shared::uvec2 size : {shared::uvec2{768, 432}, {1536, 864}, {2304, 1296}, {4916, 2766}}) {
-        for (const auto& [directions, interval, averaging, name] : {std::tuple{8u, 5u, ao::Averaging::pyramid, "default"}, {18u, 5u, ao::Averaging::pyramid, "fast"},
+        for (const auto& [directions, interval, averaging, name] : {std::tuple{12u, 5u, ao::Averaging::pyramid, "default"}, {8u, 5u, ao::Averaging::pyramid, "8x4"}, {18u, 5u, ao::Averaging::pyramid, "fast"},
                                                                     {8u, 10u, ao::Averaging::prefixSums, "paper_8x2"}, {16u, 10u, ao::Averaging::prefixSums, "paper_16x2"}}) {
             const ao::FarFieldGrid grid = ao::farFieldGrid(size, directions, interval, 1, averaging, 16384);
             printf("%4ux%-4u %-10s K=%-2u B0=%-2u %6.1f\n", size.x, size.y, name, directions, grid.interval, double(grid.bytes) * 1e-6);

@@ -37,15 +37,15 @@ const char* const kOffOn[] = {"off", "on"};
 const char* const kSparsities[] = {"every", "every 2nd", "every 4th"};
 
 const Parameter kParameters[] = {
-    {"directions", "", 4, 32, 8, true, {}, "Directions in which the depth buffer is scanned, K; even numbers share walks between opposite ones."},
-    {"segments", "", 1, 8, 3, true, {}, "Parts of each sector, evaluated one by one; the cost per pixel grows with directions x segments."},
+    {"directions", "", 4, 32, 12, true, {}, "Directions in which the depth buffer is scanned, K; even numbers share walks between opposite ones."},
+    {"segments", "", 1, 8, 2, true, {}, "Parts of each sector, evaluated one by one; the cost per pixel grows with directions x segments."},
     {"interval", "px", 3, 20, 5, true, {}, "Shortest interval that keeps one point, B0; longer ones cost less and leave more to the near field."},
     {"longest", "", 0.25f, 1, 0.5f, false, {}, "Longest interval, parts of its distance; the paper's is 1. Intervals run along a sector's middle, so long ones reach across its sides and leave bands."},
     {"lines", "", 0, 2, 0, true, {kSparsities, 3}, "Which of the lines, a pixel apart, are scanned."},
     {"slope", "", -2, 2, 1, false, {}, "Slope of the second angle at which intervals are seen, s; the paper's is -1, from above. 0 counts as 1."},
     {"estimator", "", 0, 2, 2, true, {kEstimators, 3}, "What stands below a point: a slab away from the camera as in the paper, the connection to the point before it, or between both."},
     {"averaging", "", 0, 3, 2, true, {kAveragings, 4}, "How points are averaged over a sector's width: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth; direct: single texels of the depth buffer, without scans."},
-    {"near", "", 0, 16, 5, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
+    {"near", "", 0, 16, 6, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
     {"parts", "", 0, 2, 0, true, {kParts, 3}, "What is shown: both fields, the near one alone, or the far one alone above the near one's horizon."},
     kInterleave,
     {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
@@ -60,7 +60,7 @@ const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 
 const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"near", 3}, {"interleave", kNine}};
 const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
-    {"default", "8 directions x 3 segments, blended estimator, lateral pyramid.", {}},
+    {"default", "12 directions x 2 segments, blended estimator, lateral pyramid.", {}},
     {"paper_8x2", "The paper's smaller setting.", {kPaper8, std::size(kPaper8)}},
     {"paper_16x2", "The paper's larger setting.", {kPaper16, std::size(kPaper16)}},
     {"paper_saao", "The paper's interleaved setting: 18 directions x 2 segments, blurred.", {kPaperSaao, std::size(kPaperSaao)}},
