@@ -19,6 +19,14 @@ private:
     gpu::Program m_one, m_two[2];  // by the layers that there are
 };
 
+// The images that spans_at.glsl reads of a frame that has depth layers, and its first constants.
+struct LayerReading {
+    struct { float sheet; uint32_t shift; } packing;
+    graph::ImageId thickness, second;
+    uint32_t layers;  // that there are, 1 or 2
+};
+LayerReading readLayers(graph::Graph& graph, const Inputs& inputs, float sheet, bool onlyFirst = false);
+
 // What a method that can do without has of them. Named as renderers and layersOf() look for it.
 inline constexpr Parameter kDepthLayers{"depth_layers", "", 0, 3, 0, true, {kLayerChoices, 4},
                                         "What is read of what lies behind the visible surface, so that things end where they do; each more costs geometry passes."};

@@ -23,7 +23,8 @@
 #include <string>
 
 #include "ao/resolve.h"
-#include "far_field_parts.h"
+#include "ao/spans.h"
+#include "far_field_layers.h"
 
 namespace obscura::ao {
 namespace {
@@ -51,6 +52,8 @@ const Parameter kParameters[] = {
     {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
     {"jitter", "", 0, 1, 0, false, {}, "How much of its segment a pixel's directions are turned by, at random: noise instead of bands. Not interleaved."},
     {"alternate", "", 0, 1, 1, true, {kOffOn, 2}, "Every other pixel's directions are turned by half a segment: bands become a fine checkerboard, weak but beside tall things. Neither interleaved nor jittered."},
+    kDepthLayers,
+    kSheet,
     {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
 };
 const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
@@ -91,7 +94,8 @@ public:
         }
         const struct { const char* name; gpu::Program* program; } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid},
                                                                                 {"box_average", &result->m_boxAverage}, {"blur", &result->m_blur}};
-        if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;
+        if (Gather::create(device, shaders, result->m_gather) != Status::ok || LayerFields::create(device, shaders, result->m_fields) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/far_field/obscurance_layers.comp", {{0, uint32_t(Averaging::pyramid)}}, result->m_layered) != gpu::Status::ok) return nullptr;
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, std::string("ao/far_field/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;
         return result;
@@ -99,6 +103,7 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
+        const bool layered = inputs.layers.thickness && readsLayers(values);
         const float thickness = values["thickness"];
         const uint32_t side = thickness > 0.0f ? 1 : tileSide(values);
         auto averaging = Averaging(values.count("averaging"));
@@ -125,11 +130,12 @@ public:
         constants.jitter = values["jitter"];
         constants.alternate = side == 1 && constants.jitter <= 0.0f && values.count("alternate");
 
+        const LayerFields::Fields fields = layered ? m_fields.split(graph, inputs, values["sheet"]) : LayerFields::Fields{inputs.depth, {}};
         const graph::BufferId grids = graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
         graph::ImageId cells = inputs.normals;  // something to bind where there are none
         if (averaging != Averaging::direct) cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
         const uint32_t run = averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1);
-        if (averaging != Averaging::direct) graph.pass("far_field.scan", m_scan[uint32_t(averaging)]).read(inputs.viewBlock).read(inputs.depth).read(grids).write(cells)
+        if (averaging != Averaging::direct) graph.pass("far_field.scan", m_scan[uint32_t(averaging)]).read(inputs.viewBlock).read(fields.background).read(grids).write(cells)
             .constants(constants).dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
         if (averaging == Averaging::prefixSums)
             graph.pass("far_field.prefix sums", m_prefix).read(grids).write(cells).constants(constants).dispatch(grid.intervals, grid.levels, directions);
@@ -140,12 +146,14 @@ public:
                 .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
         }
         const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
+        if (layered) return layers(graph, inputs, scanned, fields, m_fields.scan(graph, inputs, fields.things, grids, grid, constants));
         return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
     }
 
     // Scans have no end: the farthest surface hides what is behind it.
-    Blocking blocking(const Inputs&, const Values& values) const override {
-        return {Blocking::kEndless, values["thickness"] > 0.0f ? values["thickness"] : Blocking::kEndless};
+    Blocking blocking(const Inputs& inputs, const Values& values) const override {
+        const Blocking bare{Blocking::kEndless, values["thickness"] > 0.0f ? values["thickness"] : Blocking::kEndless};
+        return readsLayers(values) ? blockingOfSpans(bare, inputs, values) : bare;
     }
 
 private:
@@ -163,6 +171,18 @@ private:
         auto& programs = scanned.constants.thickness > 0.0f ? m_thin : m_obscurance;
         graph.pass(name, programs[uint32_t(scanned.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(scanned.grids)
             .read(scanned.cells).read(scanned.table).write(result).constants(scanned.constants).dispatch(visible.x, visible.y);
+        return result;
+    }
+
+    static bool readsLayers(const Values& values) {
+        return layersOf(values) != LayerUse::none && Averaging(values.count("averaging")) == Averaging::pyramid && values["thickness"] <= 0.0f && tileSide(values) == 1;
+    }
+
+    graph::ImageId layers(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const LayerFields::Fields& fields, graph::ImageId thingCells) {
+        const auto& visible = inputs.view.visible;
+        const graph::ImageId result = graph.image("far_field.obscurance", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
+        graph.pass("far_field.obscurance", m_layered).read(inputs.viewBlock).read(fields.background).read(inputs.normals).read(scanned.grids).read(scanned.cells)
+            .read(scanned.table).write(result).read(fields.things).read(thingCells).read(inputs.depth).constants(scanned.constants).dispatch(visible.x, visible.y);
         return result;
     }
 
@@ -193,7 +213,8 @@ private:
 
     FalloffTable m_table;
     gpu::Program m_scan[4], m_obscurance[4], m_thin[4], m_interleaved[4];  // by averaging
-    gpu::Program m_prefix, m_pyramid, m_boxAverage, m_blur;
+    gpu::Program m_prefix, m_pyramid, m_boxAverage, m_blur, m_layered;
+    LayerFields m_fields;
     Gather m_gather;
 };
 

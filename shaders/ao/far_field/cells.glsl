@@ -4,8 +4,6 @@
 #define OBSCURA_FAR_FIELD_CELLS_GLSL
 #include "ao/far_field/layout.h"
 
-ivec2 texelOf(uint cell) { return ivec2(cell & (kCellsWide - 1u), cell / kCellsWide); }
-
 #ifdef SUMS
 const uint kAveraging = 1u;  // kPrefix
 layout(set = 0, binding = CELLS_BINDING, rgba32f) uniform CELLS_ACCESS image2D cells;

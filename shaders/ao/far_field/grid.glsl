@@ -23,6 +23,7 @@ Axis axisOf(View view, vec2 along) {
 }
 float metresAt(Axis axis, float depth) { return depth * axis.scale.x + axis.scale.y; }
 
+ivec2 texelOf(uint cell) { return ivec2(cell & (kCellsWide - 1u), cell / kCellsWide); }
 // Where level n of a direction begins. Level n has (lines >> n) x (intervals >> n) cells with the pyramid, lines x (intervals >> n)
 // without; `total` is a multiple of 4^levels (2^levels) and at least 4/3 (2) of level 0, so this never overlaps.
 uint levelBase(Direction d, uint n, uint averaging) { return d.base + d.total - (d.total >> (averaging == kPyramid ? 2u * n : n)); }

@@ -1,0 +1,19 @@
+// Lateral pyramid of things: a cell of level n is the mean of four of the level below.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ao/far_field/grid.glsl"
+#include "ao/far_field/things.glsl"
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, std430) readonly buffer Directions { Direction directionsOf[]; };
+layout(set = 0, binding = 1, rg32ui) uniform uimage2D cells;
+layout(push_constant) uniform Constants { uint level; };
+
+void main() {
+    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    uint line = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y, lines = d.lines >> level, below = d.lines >> (level - 1u);
+    if (line >= lines || j >= d.intervals >> level) return;
+    uint from = levelBase(d, level - 1u, kPyramid) + 2u * j * below + 2u * line;
+    vec4 sum = unpackThing(imageLoad(cells, texelOf(from)).xy) + unpackThing(imageLoad(cells, texelOf(from + 1u)).xy) +
+               unpackThing(imageLoad(cells, texelOf(from + below)).xy) + unpackThing(imageLoad(cells, texelOf(from + below + 1u)).xy);
+    imageStore(cells, texelOf(levelBase(d, level, kPyramid) + j * lines + line), uvec4(packThing(0.25 * sum), 0u, 0u));
+}
