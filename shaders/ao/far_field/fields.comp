@@ -25,6 +25,7 @@ void main() {
     vec3 n = unpackNormal(normal), position = eyePosition(view, vec2(p) + 0.5, s.first);
     float away = view.orthographic > 0.5 ? -n.z * s.first * s.first : dot(n, position), front = unit / s.first;
     vec2 growth = n.xy * view.unproject.xy * unit / (abs(away) > 1e-12 ? away : 1e-12);
-    growth = clamp(growth, -0.25 * front, 0.25 * front);
-    imageStore(things, p, last ? uvec4(0u) : uvec4(packHalf2x16(vec2(front, unit / (s.first + abs(s.firstLength)))), packHalf2x16(growth), 0u, 0u));
+    // Where the front curves away it is no more slanted than it is thick.
+    float back = unit / (s.first + abs(s.firstLength)), most = front - back;
+    imageStore(things, p, last ? uvec4(0u) : uvec4(packHalf2x16(vec2(front, back)), packHalf2x16(clamp(growth, -most, most)), 0u, 0u));
 }

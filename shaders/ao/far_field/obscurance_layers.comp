@@ -15,7 +15,7 @@ layout(set = 0, binding = 9, r32f) uniform readonly image2D surfaces;
 // What a thing (front, back: unit / depth; covered; gain of the front's over the stretch) fills between `from` and `to` pixels along a segment.
 Arc arcOf(Segment s, Horizon h, vec4 thing, float perUnit, float from, float to) {
     float share = 1.0 / max(thing.z, 1e-6), front = thing.x * share * perUnit, ratio = thing.y / max(thing.x, 1e-12);
-    float bend = clamp(0.5 * thing.w * share * perUnit, -0.8 * front, 0.8 * front);
+    float bend = clamp(0.5 * thing.w * perUnit, -0.8 * front, 0.8 * front);
     vec2 fronts = vec2(front - bend, front + bend), backs = fronts * ratio;
     vec2 f0 = seenAt(s, (s.scale.x + s.scale.y * fronts.x) * from, 1.0, fronts.x), f1 = seenAt(s, (s.scale.x + s.scale.y * fronts.y) * to, 1.0, fronts.y);
     vec2 b0 = seenAt(s, (s.scale.x + s.scale.y * backs.x) * from, 1.0, backs.x), b1 = seenAt(s, (s.scale.x + s.scale.y * backs.y) * to, 1.0, backs.y);
@@ -92,7 +92,7 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
                 seed = (j * 8u + segment) * 0x9e3779b9u;
             }
             vec2 n = s.n * (isFar ? 1.0 : share);
-            seed ^= k * 0x85ebca6bu;
+            seed = (k * 8u + segment) * 0x85ebca6bu;
             cover(open, arc, n, c.unit, seed * 0xc2b2ae35u);
             vec2 point = found.to / max(found.over, 1e-12);
             raiseBehind(open, point, slabAt(s, point), before.to / max(before.over, 1e-12), before.over > 0.0 ? c.connection : 0.0, found.is, n, c.unit);
