@@ -1,5 +1,6 @@
-// Depth layers in two fields. The background is of each pixel the first surface behind which nothing is known: the ground, walls; it goes on
-// without end, as single layers do, so it is scanned for horizons. What ends is a thing: it is met where it is and what lies behind stays open.
+// Depth layers in two fields. The background is what goes on without end, as single layers do, so it is scanned for horizons: the ground, walls,
+// any surface of which no end is known and behind which there is none, or that is seen behind a solid; not a sheet behind a sheet: leaves hang
+// before leaves. What ends is a thing: it is met where it is, and what lies behind stays open.
 // In: depth, normals, depth layers. Out: the background's linear depth; of things, as halves, unit / depth of front and back, and how much
 // the former grows a pixel to the right and downwards; zeros where there is none.
 #version 460
@@ -19,7 +20,7 @@ void main() {
     uint normal;
     Spans s = spansAt(view, packing, p, normal);
     bool last = s.firstLength <= -kEndless || (s.firstLength < 0.0 && s.second <= 0.0) || isSky(view, s.first);
-    bool behind = !last && s.second > 0.0 && s.secondLength < 0.0;
+    bool behind = s.firstLength > 0.0 && s.second > 0.0 && s.secondLength < 0.0;
     imageStore(background, p, vec4(last ? s.first : behind ? s.second : view.skyDepth));
     // The front is a plane: unit / depth is linear over the picture.
     vec3 n = unpackNormal(normal), position = eyePosition(view, vec2(p) + 0.5, s.first);

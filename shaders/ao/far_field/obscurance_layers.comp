@@ -12,21 +12,67 @@ layout(set = 0, binding = 7, rg32ui) uniform readonly uimage2D things;
 layout(set = 0, binding = 8, rg32ui) uniform readonly uimage2D thingCells;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D surfaces;
 
-// What a thing (front, back: unit / depth; covered; gain of the front's over the stretch) fills between `from` and `to` pixels along a segment.
-Arc arcOf(Segment s, Horizon h, vec4 thing, float perUnit, float from, float to) {
-    float share = 1.0 / max(thing.z, 1e-6), front = thing.x * share * perUnit, ratio = thing.y / max(thing.x, 1e-12);
-    float bend = clamp(0.5 * thing.w * perUnit, -0.8 * front, 0.8 * front);
-    vec2 fronts = vec2(front - bend, front + bend), backs = fronts * ratio;
-    vec2 f0 = seenAt(s, (s.scale.x + s.scale.y * fronts.x) * from, 1.0, fronts.x), f1 = seenAt(s, (s.scale.x + s.scale.y * fronts.y) * to, 1.0, fronts.y);
-    vec2 b0 = seenAt(s, (s.scale.x + s.scale.y * backs.x) * from, 1.0, backs.x), b1 = seenAt(s, (s.scale.x + s.scale.y * backs.y) * to, 1.0, backs.y);
-    bool highAtEnd = f0.x * f1.y > f0.y * f1.x, lowAtEnd = b0.x * b1.y < b0.y * b1.x;
-    Arc arc;
-    arc.high = highAtEnd ? f1 : f0;
-    arc.low = lowAtEnd ? b1 : b0;
-    arc.over = vec2(highAtEnd ? fronts.y : fronts.x, lowAtEnd ? backs.y : backs.x);
-    arc.opacity = min(thing.z, 1.0);
-    arc.is = thing.z > 0.004 && raises(h, arc.high);
-    return arc;
+// What a thing fills of a stretch along a segment: the highest corner of its front, of any length, what to divide that by to have metres, and what is
+// needed to know the lowest one of its back.
+struct Arc {
+    vec2 high;
+    float over;
+    vec2 ends, fronts;  // of the stretch: pixels from the receiver, 1 / depth
+    float ratio;        // of the depths of front and back
+    float opacity;
+    bool is;
+};
+vec2 cornerAt(Segment s, float away, float inverse) { return seenAt(s, (s.scale.x + s.scale.y * inverse) * away, 1.0, inverse); }
+// `thing` as unpackThing() has it, its gain that over the whole stretch: what covers a part of it slants over that part.
+Arc arcOf(Segment s, Horizon h, vec4 thing, float perUnit, vec2 ends) {
+    float front = thing.x / max(thing.z, 1e-6) * perUnit, bend = clamp(0.5 * thing.w * perUnit, -0.8 * front, 0.8 * front);
+    vec2 fronts = vec2(front - bend, front + bend), first = cornerAt(s, ends.x, fronts.x), last = cornerAt(s, ends.y, fronts.y);
+    bool atEnd = first.x * last.y > first.y * last.x;
+    vec2 high = atEnd ? last : first;
+    return Arc(high, atEnd ? fronts.y : fronts.x, ends, fronts, thing.y / max(thing.x, 1e-12), min(thing.z, 1.0), thing.z > 0.004 && raises(h, high));
+}
+vec2 lowestOf(Segment s, Arc arc) {  // metres
+    vec2 backs = arc.fronts * arc.ratio, first = cornerAt(s, arc.ends.x, backs.x), last = cornerAt(s, arc.ends.y, backs.y);
+    bool atEnd = last.x * first.y > last.y * first.x;
+    return (atEnd ? last : first) / max(atEnd ? backs.y : backs.x, 1e-12);
+}
+
+// The line below a point of the background, see raise().
+vec2 lineBelow(vec2 slab, vec2 before, float connection) {
+    float longer = sqrt(max(dot(slab, slab), 1e-30) / max(dot(before, before), 1e-30));
+    return slab * (1.0 - connection) + before * (connection * longer);
+}
+
+// Sample i of the near field, (i + 0.6)^1.5 times `first` pixels away; its thing stands for a stretch around.
+void nearest(Segment s, Receiver r, Place at, Horizon h, uint i, float first, float skyDepth, out Found found, out Arc arc) {
+    vec3 t = float(i) + vec3(0.0, 0.6, 1.0);
+    t = max(first * t * sqrt(t), vec3(0.5, 0.7, 1.0));
+    ivec2 texel = clamp(ivec2(r.pixel + t.y * s.along), ivec2(0), ivec2(r.size) - 1);
+    float z = imageLoad(depth, texel).x;
+    uvec2 thing = imageLoad(things, texel).xy;
+    vec2 point = pointAt(s, z, t.y), spans = unpackHalf2x16(thing.x), growth = unpackHalf2x16(thing.y);
+    bool inside = t.y < s.exit;
+    found = Found(point, 1.0, inside && z < skyDepth && raises(h, point));
+    spans *= 1.0 + clamp(dot(growth, r.pixel + 0.5 * (t.x + t.z) * s.along - (vec2(texel) + 0.5)) / max(spans.x, 1e-6), -0.8, 0.8);  // from the texel's middle to the stretch's
+    arc = arcOf(s, h, vec4(spans, inside && thing.x != 0u ? 1.0 : 0.0, dot(growth, s.along) * (t.z - t.x)), at.perUnit, t.xz);
+}
+
+// As farPoint(), and the things of the interval. `kept`: the direction whose things serve this one too, `opposite` or the same.
+void next(Segment s, Place at, FarFieldConstants c, Horizon h, Direction kept, bool opposite, float low, float high, inout uint j, out Found found, out Arc arc) {
+    float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
+    uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u), jn = j >> n;
+    float width = c.interval * float(1u << n), middle = (float(jn) + 0.5) * width, away = middle - at.along;
+    vec3 cell = cellAt(at, s, c, n, jn, middle, at.line + low * away, at.line + high * away);
+    vec2 to = seenAt(s, cell.x, cell.y, cell.z);
+    found = Found(to, cell.z, cell.z > 0.0 && raises(h, to));
+    uint lines = at.d.lines >> n;
+    float line = clamp((at.line + 0.5 * (low + high) * away) * uintBitsToFloat((127u - n) << 23u) - 0.5, 0.0, float(lines - 1u));
+    line = opposite ? float(lines - 1u) - line : line;
+    uint l = min(uint(line), lines - 2u), row = levelBase(kept, n, kPyramid) + (opposite ? (at.d.intervals >> n) - 1u - jn : jn) * lines;
+    vec4 thing = mix(unpackThing(imageLoad(thingCells, texelOf(row + l)).xy), unpackThing(imageLoad(thingCells, texelOf(row + l + 1u)).xy), line - float(l));
+    thing.w *= opposite ? -float(1u << n) : float(1u << n);
+    arc = arcOf(s, h, thing, at.perUnit, away + vec2(-0.5, 0.5) * width);
+    j += 1u << n;
 }
 
 // Obscurance of direction k, not yet over pi, and the sector's width around the zenith.
@@ -36,67 +82,41 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
     Direction kept = directionsOf[opposite ? k - c.directions / 2u : k];
     vec2 sum = vec2(0.0), along = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * at.d.along;
     float low = turn.shift - turn.slope, step = 2.0 * turn.slope / float(c.segments), taps = float(c.taps);
-    float nearest = (float(at.first) * c.interval - at.along) / max(taps * sqrt(taps), 1.0);
-    ivec2 last = ivec2(r.size) - 1;
+    float first = (float(at.first) * c.interval - at.along) / max(taps * sqrt(taps), 1.0);
     for (uint segment = 0u;;) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
-        Open open = openAt(s.start);
+        Open open = openAt(s.start, k * c.segments + segment);
         uint i = 0u, j = at.first, end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;
         Found found = Found(vec2(0.0), 0.0, false), before = found;
-        Arc arc = Arc(vec2(0.0), vec2(0.0), vec2(1.0), 0.0, false);
-        while (true) {
-            bool isFar = true;
-            uint seed = 0u;
-            if (i < c.taps) {
-                while (true) {
-                    before = found;
-                    float t = float(i) + 0.6, t0 = float(i), t1 = t0 + 1.0;
-                    t = max(nearest * t * sqrt(t), 0.7);
-                    t0 = max(nearest * t0 * sqrt(t0), 0.5);
-                    t1 = max(nearest * t1 * sqrt(t1), t0 + 0.5);
-                    ivec2 texel = clamp(ivec2(r.pixel + t * s.along), ivec2(0), last);
-                    float z = imageLoad(depth, texel).x;
-                    uvec2 thing = imageLoad(things, texel).xy;
-                    vec2 point = pointAt(s, z, t), growth = unpackHalf2x16(thing.y);
-                    found = Found(point, 1.0, t < s.exit && z < skyDepth && raises(open.horizon, point));
-                    // The texel's plane goes on to the middle of the stretch.
-                    vec2 front = unpackHalf2x16(thing.x);
-                    front *= 1.0 + clamp(dot(growth, r.pixel + 0.5 * (t0 + t1) * s.along - (vec2(texel) + 0.5)) / max(front.x, 1e-6), -0.8, 0.8);
-                    arc = arcOf(s, open.horizon, vec4(front, thing.x != 0u && t < s.exit ? 1.0 : 0.0, dot(growth, s.along) * (t1 - t0)), at.perUnit, t0, t1);
-                    ++i;
-                    if (found.is || arc.is || i >= c.taps) break;
+        Arc arc = Arc(vec2(0.0), 1.0, vec2(0.0), vec2(1.0), 1.0, 0.0, false);
+        bool isFar = false;
+        while (true) {  // as sectorOf(): what counts is searched for, then met: things, then the background
+            if (!found.is) {
+                isFar = i >= c.taps;
+                if (!isFar) {
+                    while (true) {
+                        before = found;
+                        nearest(s, r, at, open.horizon, i++, first, skyDepth, found, arc);
+                        if (found.is || arc.is || i >= c.taps) break;
+                    }
+                    isFar = !found.is && !arc.is;
                 }
-                seed = i * 0x9e3779b9u;
-                isFar = !found.is && !arc.is;
-            }
-            if (isFar && j < end) {
-                while (true) {
-                    before = found;
-                    float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
-                    uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
-                    float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
-                    vec3 cell = cellAt(at, s, c, n, j >> n, middle, at.line + low * away, at.line + (low + step) * away);
-                    vec2 to = seenAt(s, cell.x, cell.y, cell.z);
-                    found = Found(to, cell.z, cell.z > 0.0 && raises(open.horizon, to));
-                    uint lines = at.d.lines >> n, jn = j >> n;
-                    float line = clamp((at.line + (low + 0.5 * step) * away) * uintBitsToFloat((127u - n) << 23u) - 0.5, 0.0, float(lines - 1u));
-                    line = opposite ? float(lines - 1u) - line : line;
-                    uint l = min(uint(line), lines - 2u), row = levelBase(kept, n, kPyramid) + (opposite ? (at.d.intervals >> n) - 1u - jn : jn) * lines;
-                    vec4 thing = mix(unpackThing(imageLoad(thingCells, texelOf(row + l)).xy), unpackThing(imageLoad(thingCells, texelOf(row + l + 1u)).xy), line - float(l));
-                    thing.w *= (opposite ? -1.0 : 1.0) * float(1u << n);
-                    arc = arcOf(s, open.horizon, thing, at.perUnit, away - 0.5 * width, away + 0.5 * width);
-                    j += 1u << n;
-                    if (found.is || arc.is || j >= end) break;
+                if (isFar && j < end) {
+                    while (true) {
+                        before = found;
+                        next(s, at, c, open.horizon, kept, opposite, low, low + step, j, found, arc);
+                        if (found.is || arc.is || j >= end) break;
+                    }
                 }
-                seed = (j * 8u + segment) * 0x9e3779b9u;
             }
-            vec2 n = s.n * (isFar ? 1.0 : share);
-            seed = (k * 8u + segment) * 0x85ebca6bu;
-            cover(open, arc, n, c.unit, seed * 0xc2b2ae35u);
-            vec2 point = found.to / max(found.over, 1e-12);
-            raiseBehind(open, point, slabAt(s, point), before.to / max(before.over, 1e-12), before.over > 0.0 ? c.connection : 0.0, found.is, n, c.unit);
-            if (i >= c.taps && j >= end) break;
+            bool thing = arc.is;
+            vec2 point = thing ? arc.high / arc.over : found.to / max(found.over, 1e-12), n = s.n * (isFar ? 1.0 : share);
+            vec2 line = thing ? lowestOf(s, arc) - point : lineBelow(slabAt(s, point), before.to / max(before.over, 1e-12) - point, before.over > 0.0 ? c.connection * open.horizon.follows : 0.0);
+            meet(open, point, line, thing, thing ? arc.opacity : 1.0, thing || (found.is && raises(open.horizon, found.to)), n, c.unit);
+            found.is = found.is && thing;
+            arc.is = false;
+            if (!found.is && i >= c.taps && j >= end) break;
         }
         sum += s.weight * vec2(open.horizon.blocked, 1.0);
         low += step;
