@@ -15,8 +15,12 @@
 // last visible one blocks what lies open between two columns), are seen from above and below (s = 1), and are averaged as
 // 1/depth by a lateral pyramid, which needs a sixth of the memory of prefix sums and no pass over every cell.
 //
+// With depth layers (`depth_layers`) there are two fields. What goes on without end, the background, is scanned as ever, behind things too. Things
+// end, so they are no heights: of an interval their means are kept, covered share, front, back and slant, and a receiver takes the corners of
+// such a stretch for an arc of so much opacity (shaders/ao/far_field/things_met.glsl). Read by the pyramid alone, which can average both.
+//
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: table (when the falloff is new),
-// scan, prefix sums or pyramid, obscurance; interleaved also near field, box average, gather, blur.
+// scan, prefix sums or pyramid, obscurance; interleaved also near field, box average, gather, blur; with layers also fields, things and their pyramid.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -52,7 +56,7 @@ const Parameter kParameters[] = {
     {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
     {"jitter", "", 0, 1, 0, false, {}, "How much of its segment a pixel's directions are turned by, at random: noise instead of bands. Not interleaved."},
     {"alternate", "", 0, 1, 1, true, {kOffOn, 2}, "Every other pixel's directions are turned by half a segment: bands become a fine checkerboard, weak but beside tall things. Neither interleaved nor jittered."},
-    kDepthLayers,
+    {"depth_layers", "", 0, 3, 0, true, {kLayerChoices, 4}, "What is read of what lies behind the visible surface, so that things end where they do; each more costs geometry passes. By the pyramid alone: neither with thickness nor interleaved."},
     kSheet,
     {"blur", "", 0, 0.5f, 0.07f, false, {}, "After interleaving: 5x5 over neighbours whose visibility differs by no more than this; 0 for none."},
 };
@@ -62,12 +66,14 @@ const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 
                               {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kNine}};
 const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"near", 3}, {"interleave", kNine}};
 const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
+const Setting kLayers[] = {{"depth_layers", float(LayerUse::second)}};
 const Preset kPresets[] = {
     {"default", "12 directions x 2 segments, blended estimator, lateral pyramid.", {}},
     {"paper_8x2", "The paper's smaller setting.", {kPaper8, std::size(kPaper8)}},
     {"paper_16x2", "The paper's larger setting.", {kPaper16, std::size(kPaper16)}},
     {"paper_saao", "The paper's interleaved setting: 18 directions x 2 segments, blurred.", {kPaperSaao, std::size(kPaperSaao)}},
     {"fast", "Interleaved over 3x3 pixels: a ninth of the far field a pixel.", {kFast, std::size(kFast)}},
+    {"layers", "The default through depth layers: what ends hides nothing behind it.", {kLayers, std::size(kLayers)}},
     {"thin", "Surfaces 10 cm thick, 16 single lines, jittered.", {kThin, std::size(kThin)}},
 };
 const MethodInfo kInfo{"far_field",
