@@ -1,4 +1,5 @@
-// Means of things over the shortest intervals of every line, along one of each two opposite directions.
+// Means of things over the shortest intervals of every line, along one of each two opposite directions. Edges of the picture go on beyond it, or
+// walls would thin out there.
 // In: things as fields.comp writes them, directions. Out: cells of things.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,14 +19,12 @@ void main() {
     uint line = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y, steps = uint(c.interval);
     if (line >= d.lines || j >= d.intervals) return;
     float across = (float(line) + 0.5) * c.lineStep - d.origin.y, first = middleOf(d, c.interval, j) - 0.5 * c.interval + 0.5;
-    vec2 size = vec2(view.size), at = size * 0.5 + d.along * first + vec2(-d.along.y, d.along.x) * across;
+    vec2 at = vec2(view.size) * 0.5 + d.along * first + vec2(-d.along.y, d.along.x) * across;
     ivec2 last = ivec2(view.size) - 1;
     vec4 sum = vec4(0.0);
     for (uint i = 0u;;) {
         uvec2 texel = imageLoad(things, clamp(ivec2(at), ivec2(0), last)).xy;
-        bool valid = texel.x != 0u && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, size));
-        vec4 thing = vec4(unpackHalf2x16(texel.x), 1.0, dot(unpackHalf2x16(texel.y), d.along));
-        sum += valid ? thing : vec4(0.0);
+        sum += vec4(unpackHalf2x16(texel.x), texel.x != 0u ? 1.0 : 0.0, dot(unpackHalf2x16(texel.y), d.along));  // zeros where there is none
         at += d.along;
         if (++i >= steps) break;
     }
