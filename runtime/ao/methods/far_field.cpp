@@ -50,7 +50,7 @@ const Parameter kParameters[] = {
     {"slope", "", -2, 2, 1, false, {}, "Slope of the second angle at which intervals are seen, s; the paper's is -1, from above. 0 counts as 1."},
     {"estimator", "", 0, 2, 2, true, {kEstimators, 3}, "What stands below a point: a slab away from the camera as in the paper, the connection to the point before it, or between both."},
     {"averaging", "", 0, 3, 2, true, {kAveragings, 4}, "How points are averaged over a sector's width: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth; direct: single texels of the depth buffer, without scans."},
-    {"near", "", 0, 16, 6, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
+    {"near", "", 0, 16, 5, true, {}, "Samples of the near field in each segment; 0 leaves the far field alone."},
     {"parts", "", 0, 2, 0, true, {kParts, 3}, "What is shown: both fields, the near one alone, or the far one alone above the near one's horizon."},
     kInterleave,
     {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are, kept in 32 bins of each sector; 0 is endless. Thin ones are neither averaged nor interleaved."},
