@@ -51,7 +51,7 @@ TEST_F(FarFieldLayers, aBoxThatFloats) {
     EXPECT_LE(error(world, layers(ao::LayerUse::second), kAll), 0.003);
 }
 
-// Floor and wall that end, so that all there is are things: slanted over whole stretches of pixels, and without gaps.
+// Floor and wall that end, so that all there is are things, which stand on each other without gaps.
 TEST_F(FarFieldLayers, aRoomOfSlabs) {
     const std::vector<Solid> world{{Kind::box, {0, -1.7f, -5}, {20, 0.2f, 20}}, {Kind::box, {0, 0, -8.2f}, {20, 20, 0.2f}}, {Kind::box, {0, -1.0f, -6}, {0.5f, 0.5f, 0.4f}}};
     EXPECT_LE(error(world, layers(ao::LayerUse::second), kAll), 0.004);
