@@ -223,6 +223,17 @@ TEST(OnAScene, whatItCapturesIsWhatItJudged) {
     EXPECT_EQ(a["pixels"], b["pixels"]);
 }
 
+TEST(OnAScene, passesThatOnlySomeFramesHaveAreToldApart) {
+    // Layers are drawn in two forms in turn until one of them has proved cheaper.
+    const Scratch scratch;
+    const std::string file = (scratch / "a.json").string();
+    const Ended ended = runTool(fmt::format("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality --reference screen --json '{}'", file));
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json passes = json::parse(textOf(file))[0]["milliseconds"]["passes"];
+    EXPECT_TRUE(passes.contains("layers.second hit")) << passes;
+    for (const auto& [name, time] : passes.items()) EXPECT_TRUE(time.is_number() && time.get<double>() > 0.0) << name << ": " << time;
+}
+
 TEST(OnAScene, badNamesAreOneLine) {
     for (const char* arguments :
          {"--scene toaster", "--scene no/such.glb", "--scene toasters --camera scene:99", "--scene toasters --camera path:no.json@1",

@@ -34,22 +34,24 @@ std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options)
     const size_t perFalloff = options.candidates.size(), count = perFalloff * options.falloffs.size();
     app::Progress progress("running methods on " + shot.scene, count * options.rounds);
     std::vector<Drawn> all;
-    std::vector<std::vector<std::vector<double>>> times(count);  // of each drawing, pass and round
+    std::vector<std::vector<app::Series>> passes(count);  // of each drawing: a pass's medians in the rounds that had it, which rounds may differ in
+    std::vector<std::vector<double>> sums(count);
     for (uint32_t round = 0; round < options.rounds; ++round)
         for (size_t i = 0; i < count; ++i) {
             progress.at(round * count + i, options.candidates[i % perFalloff].label());
             Drawing drawing = draw(machine, shot, options.candidates[i % perFalloff], options.falloffs[i / perFalloff].falloff, options.warmUp, options.frames);
-            times[i].resize(drawing.passes.size());
-            for (size_t p = 0; p < drawing.passes.size(); ++p) times[i][p].push_back(drawing.passes[p].median());
-            if (round > 0) continue;
-            all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), {}, 0.0});
-            for (const app::Series& pass : drawing.passes) all.back().passes.push_back({pass.name, 0.0});
+            sums[i].push_back(app::percentile(drawing.own, 0.5));
+            for (const app::Series& pass : drawing.passes) {
+                auto known = std::find_if(passes[i].begin(), passes[i].end(), [&](const app::Series& s) { return s.name == pass.name; });
+                if (known == passes[i].end()) known = passes[i].insert(known, {pass.name, {}});
+                known->values.push_back(pass.median());
+            }
+            if (round == 0) all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), {}, 0.0});
         }
-    for (size_t i = 0; i < count; ++i)
-        for (size_t p = 0; p < all[i].passes.size(); ++p) {
-            all[i].passes[p].milliseconds = app::percentile(times[i][p], 0.5);
-            all[i].milliseconds += all[i].passes[p].milliseconds;
-        }
+    for (size_t i = 0; i < count; ++i) {
+        for (const app::Series& pass : passes[i]) all[i].passes.push_back({pass.name, pass.median()});
+        all[i].milliseconds = app::percentile(sums[i], 0.5);
+    }
     return all;
 }
 
@@ -74,18 +76,17 @@ Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao:
     });
     Drawing drawing{planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, {}, {}, ran.bytes};
     const auto drawsTheFrame = [&](const std::string& pass) { return std::find(shot.framePasses.begin(), shot.framePasses.end(), pass) != shot.framePasses.end(); };
-    for (const graph::PassTime& pass : ran.passes)
-        if (!drawsTheFrame(pass.name)) drawing.passes.push_back({pass.name, {}});
-    for (const graph::Timings& frame : ran.frames) {
-        double own = 0.0, rest = 0.0;
-        for (const graph::PassTime& pass : frame.passes) {
-            const auto series = std::find_if(drawing.passes.begin(), drawing.passes.end(), [&](const app::Series& s) { return s.name == pass.name; });
-            (drawsTheFrame(pass.name) ? rest : own) += pass.milliseconds;
-            if (series != drawing.passes.end()) series->values.push_back(pass.milliseconds);
-        }
+    app::Statistics statistics(frames);
+    for (graph::Timings frame : ran.frames) {
+        double all = 0.0, own = 0.0;
+        for (const graph::PassTime& pass : frame.passes) all += pass.milliseconds;
+        std::erase_if(frame.passes, [&](const graph::PassTime& pass) { return drawsTheFrame(pass.name); });
+        for (const graph::PassTime& pass : frame.passes) own += pass.milliseconds;
+        statistics.add(frame);
         drawing.own.push_back(own);
-        drawing.rest.push_back(rest);
+        drawing.rest.push_back(all - own);
     }
+    drawing.passes = statistics.passes();
     return drawing;
 }
 

@@ -10,7 +10,7 @@ namespace obscura::evaluate {
 // A run of frames with one candidate.
 struct Drawing {
     truth::Plane visibility;
-    std::vector<app::Series> passes;  // the method's own, a value a timed frame; fewer where a frame went without the pass
+    std::vector<app::Series> passes;  // the method's own, as app::Statistics tells them apart: a value a timed frame, fewer where a frame went without
     std::vector<double> own;          // a timed frame: its own passes, summed
     std::vector<double> rest;         // and what draws the frame whatever the method
     uint64_t bytes = 0;               // graph::Graph::frameBytes()
@@ -24,7 +24,7 @@ struct Drawn {
     size_t falloff = 0;                  // of Options::falloffs
     truth::Plane visibility;
     std::vector<graph::PassTime> passes; // the method's own, medians in milliseconds
-    double milliseconds = 0.0;           // their sum
+    double milliseconds = 0.0;           // all of them, median of the rounds
 };
 
 // One line of the tables.
