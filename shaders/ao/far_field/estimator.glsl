@@ -22,9 +22,10 @@ vec3 tableDifference(float phi1, float phi2, float v) {
 struct Horizon {
     float square;   // the cosine of its zenith angle, squared, with its sign: tells without a root what raises it
     float angle;
-    float follows;  // connection once there is a visible point
+    float follows;  // 1, connection, once a point has raised it well above the tangent plane
     float blocked;  // what was gained, times |n_k|
 };
+const float kFollows = 50.0;  // per radian of that: had the first visible point no part in it, one that rounding lifts would change what follows
 Horizon horizonAt(float cosine) { return Horizon(cosine * abs(cosine), arcCosine(cosine), 0.0, 0.0); }
 
 // Whether a point in direction `to` (any length) from the receiver raises the horizon. Four points in five do not, and they are told by this
@@ -47,8 +48,8 @@ void raise(inout Horizon h, vec2 point, vec2 slab, vec2 before, float connection
     float gained = 0.5 * ((twice.x * n.y - twice.y * n.x) * a.y - (twice.y * n.y + twice.x * n.x) * a.z + n.x * a.x);
     h.blocked += found ? gained : 0.0;
     h.square = found ? point.y * abs(point.y) / dot(point, point) : h.square;
+    h.follows = found ? min(h.follows + kFollows * (h.angle - angle), 1.0) : h.follows;
     h.angle = found ? angle : h.angle;
-    h.follows = found ? 1.0 : h.follows;
 }
 
 #endif

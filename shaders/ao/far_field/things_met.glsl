@@ -45,8 +45,8 @@ void meet(inout Open open, vec2 point, vec2 line, bool thing, float opacity, boo
     ivec2 bins = ivec2(place + 0.5);
     open.covered |= found && !raised ? bitfieldInsert(0u, ~0u, bins.x, max(bins.y - bins.x, 0)) & someOf(opacity, open.pattern) : 0u;
     open.horizon.square = raised ? point.y * abs(point.y) / dot(point, point) : open.horizon.square;
+    open.horizon.follows = found && !thing ? min(open.horizon.follows + kFollows * (open.horizon.angle - angle), 1.0) : open.horizon.follows;
     open.horizon.angle = raised ? angle : open.horizon.angle;
-    open.horizon.follows = found && !thing ? 1.0 : open.horizon.follows;
 }
 
 #endif
