@@ -4,8 +4,7 @@
 // A ray that comes to where the method takes the depth buffer for solid (Method::blocking) ends there and counts nothing: the method
 // has counted that direction. Set cells on the surface shown are passed by. Where the method reads depth layers, what they show is solid
 // from front to back and no farther: a hit behind the back is seen by nobody else, one on the back is no other thing.
-// B is soft, so it is traced for a quarter of the pixels and
-// upsampled; A = min(1, A_screen + B).
+// B is soft, so it is traced for a quarter of the pixels and upsampled; A = min(1, A_screen + B).
 #pragma once
 
 #include "ao/spans.h"

@@ -3,6 +3,7 @@
 #include "ao/depth_mips.h"
 
 namespace obscura::ao {
+
 Status SpansPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SpansPass& out) {
     gpu::Status status = gpu::Program::compute(device, shaders, "ao/common/spans_one.comp", {{0, 1}}, out.m_one);
     for (uint32_t layers = 1; layers < 3 && status == gpu::Status::ok; ++layers)

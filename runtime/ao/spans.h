@@ -21,8 +21,8 @@ private:
 
 // The images that spans_at.glsl reads of a frame that has depth layers, and its first constants.
 struct LayerReading {
-    struct { float sheet; uint32_t shift; } packing;
-    graph::ImageId thickness, second;
+    struct { float sheet; uint32_t shift; } packing;  // Packing there: metres; 1 where the second layer is of half size
+    graph::ImageId thickness, second;  // where there is no second, the first again
     uint32_t layers;  // that there are, 1 or 2
 };
 LayerReading readLayers(graph::Graph& graph, const Inputs& inputs, float sheet, bool onlyFirst = false);

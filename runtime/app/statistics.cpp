@@ -11,6 +11,11 @@ double percentile(std::vector<double> values, double rank) {
     return values[index];
 }
 
+Series& named(std::vector<Series>& all, const std::string& name) {
+    const auto known = std::find_if(all.begin(), all.end(), [&](const Series& s) { return s.name == name; });
+    return known != all.end() ? *known : all.emplace_back(Series{name, {}});
+}
+
 void Statistics::push(Series& series, double value) const {
     if (series.values.size() >= m_keep) series.values.erase(series.values.begin());
     series.values.push_back(value);

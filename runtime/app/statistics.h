@@ -20,6 +20,8 @@ struct Series {
     double p95() const { return percentile(values, 0.95); }
     double worst() const { return percentile(values, 1.0); }
 };
+// The one of that name; a new one at the end where there is none. Valid until the next is added.
+Series& named(std::vector<Series>& all, const std::string& name);
 
 class Statistics {
 public:

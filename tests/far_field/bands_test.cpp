@@ -113,15 +113,20 @@ Waves wavesOf(const Picture& picture, const Picture& reference, const Box& box) 
     return waves;
 }
 
+// Mean power over the rings, by waves a turn.
+std::vector<double> powerOf(const Waves& waves) {
+    std::vector<double> power(kMost + 1, 0.0);
+    for (size_t i = 0; i < waves.size(); ++i) power[i % (kMost + 1)] += std::norm(waves[i]) / kRings;
+    return power;
+}
+
 // Over 1 ... kMost waves a turn: amplitude of the strongest, which that is, its power in medians of all of them.
 struct Peak { double amplitude; int frequency; double medians; };
-Peak peakOf(const Waves& rings, const std::vector<double>& power) {
-    std::vector<double> mean(power);
-    for (size_t i = 0; i < rings.size(); ++i) mean[i % (kMost + 1)] += std::norm(rings[i]) / kRings;
-    const auto highest = std::max_element(mean.begin() + 1, mean.end());
-    std::vector<double> sorted(mean.begin() + 1, mean.end());
+Peak peakOf(const std::vector<double>& power) {
+    const auto highest = std::max_element(power.begin() + 1, power.end());
+    std::vector<double> sorted(power.begin() + 1, power.end());
     std::sort(sorted.begin(), sorted.end());
-    return {2.0 * std::sqrt(*highest), int(highest - mean.begin()), *highest / sorted[sorted.size() / 2]};
+    return {2.0 * std::sqrt(*highest), int(highest - power.begin()), *highest / sorted[sorted.size() / 2]};
 }
 
 class FarFieldBands : public FarFieldTest {};
@@ -144,12 +149,11 @@ TEST_F(FarFieldBands, noPeakIsAboveThreeMedians) {
         Waves mean(kRings * (kMost + 1));
         for (int i = 0; i < kBoxes; ++i) {
             const Waves waves = wavesOf(run(rooms[i], values(changes, preset), "exponential:3"), references[i], boxes[i]);
-            for (size_t w = 0; w < waves.size(); ++w) {
-                power[w % (kMost + 1)] += std::norm(waves[w]) / kRings / kBoxes;
-                mean[w] += waves[w] / double(kBoxes);
-            }
+            const std::vector<double> one = powerOf(waves);
+            for (int f = 0; f <= kMost; ++f) power[f] += one[f] / kBoxes;
+            for (size_t w = 0; w < waves.size(); ++w) mean[w] += waves[w] / double(kBoxes);
         }
-        const Bands result{peakOf({}, power), peakOf(mean, std::vector<double>(kMost + 1, 0.0))};
+        const Bands result{peakOf(power), peakOf(powerOf(mean))};
         printf("%-16s highest peak %2d a turn, %.4f, %5.1f medians; in the mean error %2d a turn, %.4f\n", name, result.each.frequency,
                result.each.amplitude, result.each.medians, result.together.frequency, result.together.amplitude);
         return result;

@@ -34,9 +34,8 @@ struct Cell {
 
     void add(const evaluate::Drawing& drawing) {
         for (const app::Series& pass : drawing.passes) {
-            auto known = std::find_if(passes.begin(), passes.end(), [&](const app::Series& s) { return s.name == pass.name; });
-            if (known == passes.end()) known = passes.insert(known, {pass.name, {}});
-            known->values.insert(known->values.end(), pass.values.begin(), pass.values.end());
+            std::vector<double>& values = app::named(passes, pass.name).values;
+            values.insert(values.end(), pass.values.begin(), pass.values.end());
         }
         own.insert(own.end(), drawing.own.begin(), drawing.own.end());
         rest.insert(rest.end(), drawing.rest.begin(), drawing.rest.end());

@@ -41,11 +41,7 @@ std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options)
             progress.at(round * count + i, options.candidates[i % perFalloff].label());
             Drawing drawing = draw(machine, shot, options.candidates[i % perFalloff], options.falloffs[i / perFalloff].falloff, options.warmUp, options.frames);
             sums[i].push_back(app::percentile(drawing.own, 0.5));
-            for (const app::Series& pass : drawing.passes) {
-                auto known = std::find_if(passes[i].begin(), passes[i].end(), [&](const app::Series& s) { return s.name == pass.name; });
-                if (known == passes[i].end()) known = passes[i].insert(known, {pass.name, {}});
-                known->values.push_back(pass.median());
-            }
+            for (const app::Series& pass : drawing.passes) app::named(passes[i], pass.name).values.push_back(pass.median());
             if (round == 0) all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), {}, 0.0});
         }
     for (size_t i = 0; i < count; ++i) {

@@ -10,7 +10,7 @@ namespace obscura::evaluate {
 // A run of frames with one candidate.
 struct Drawing {
     truth::Plane visibility;
-    std::vector<app::Series> passes;  // the method's own, as app::Statistics tells them apart: a value a timed frame, fewer where a frame went without
+    std::vector<app::Series> passes;  // the method's own in the last timed frame, as app::Statistics keeps them: a value a frame since they came
     std::vector<double> own;          // a timed frame: its own passes, summed
     std::vector<double> rest;         // and what draws the frame whatever the method
     uint64_t bytes = 0;               // graph::Graph::frameBytes()

@@ -156,7 +156,7 @@ public:
         return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
     }
 
-    // Scans have no end: the farthest surface hides what is behind it.
+    // Scans have no end: the farthest surface hides what is behind it, unless layers tell where it ends.
     Blocking blocking(const Inputs& inputs, const Values& values) const override {
         const Blocking bare{Blocking::kEndless, values["thickness"] > 0.0f ? values["thickness"] : Blocking::kEndless};
         return readsLayers(values) ? blockingOfSpans(bare, inputs, values) : bare;

@@ -28,7 +28,6 @@ void main() {
         at += d.along;
         if (++i >= steps) break;
     }
-    sum /= c.interval;
-    sum.w *= c.interval;
+    sum.xyz /= c.interval;  // means, but for what the front gains along all of it
     imageStore(cells, texelOf(levelBase(d, 0u, kPyramid) + j * d.lines + line), uvec4(packThing(sum), 0u, 0u));
 }

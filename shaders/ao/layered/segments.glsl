@@ -1,7 +1,7 @@
 // Segments of occlusion around each pixel: for every slice and step what the depth layers hold there covers part of the
 // hemisphere, once, with the falloff of where it stands. Formulas in runtime/ao/methods/layered.cpp.
-// In: normals and spans (one of matter, with TWO_SPANS two; with NO_SPANS depth, and all is as thick as assumed), guard band included. Out: what they block and what they could, of each pixel
-// or, with a map, of some (parts.glsl).
+// In: normals and spans (one of matter, with TWO_SPANS two; with NO_SPANS depth, and all is as thick as assumed), guard band included.
+// Out: what they block and what they could, of each pixel or, with a map, of some (parts.glsl).
 #ifndef OBSCURA_SEGMENTS_GLSL
 #define OBSCURA_SEGMENTS_GLSL
 #include "ao/common/spans.glsl"
@@ -30,7 +30,7 @@ layout(set = 0, binding = 2, r32f) uniform readonly image2D depth;
 float depthAt(ivec2 pixel) { return imageLoad(depth, pixel).x; }
 Spans matterAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
     normal = directionOf(imageLoad(normals, pixel).x);
-    return Spans(depthAt(pixel), -abs(assumed), 0.0, 1.0);
+    return Spans(depthAt(pixel), -abs(assumed), 0.0, 1.0);  // abs tells compilers the sign: nothing is solid
 }
 #elif defined(TWO_SPANS)
 layout(set = 0, binding = 2, rgba32ui) uniform readonly uimage2D spans;
@@ -53,7 +53,7 @@ Spans matterAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
 const float kAbove = 0.002;          // sine above the pixel's own plane from which on things cover it
 const float kFlat = 0.1;             // sine of the angle up to which two samples share a plane
 const float kRise = 0.012;           // depths that a surface may rise over a stratum when they do not
-const float kThin = 0.5;            // of a stratum's length: what a thin thing in it counts for; 1 would be right for the round, and noisier
+const float kThin = 0.5;             // of a stratum's length: what a thin thing in it counts for; 1 would be right for the round, and noisier
 const float kNextStep = 0.61803399;  // slices do not sample in one rhythm
 
 // Which of the tile's slices and steps are a pixel's, in [0,1). Any 4x4 pixels hold 16 once, any 2x2 of them a quarter each: a hash
