@@ -18,6 +18,15 @@
 #include <cstdint>
 #include <vulkan/vulkan_core.h>
 
+// Marks the functions that a shared library exports. Only the library's own build defines OBSCURA_EXPORTS; a host defines nothing.
+#if !defined(OBSCURA_EXPORTS)
+#define OBSCURA_API
+#elif defined(_WIN32)
+#define OBSCURA_API __declspec(dllexport)
+#else
+#define OBSCURA_API __attribute__((visibility("default")))
+#endif
+
 namespace obscura::ao {
 
 enum class Status : uint8_t { ok, invalid, unsupported, outOfMemory, deviceLost, shaderError };
@@ -67,13 +76,13 @@ struct MethodInfo {
 };
 
 // All methods, in the order keys and menus show them. Static storage.
-List<const MethodInfo*> methods();
-const MethodInfo* findMethod(const char* id);  // null when there is none
+OBSCURA_API List<const MethodInfo*> methods();
+OBSCURA_API const MethodInfo* findMethod(const char* id);  // null when there is none
 
 // What becomes of any method's samples before they are shown: "raw", as they are; "spatial", its own blur; "temporal", that and the shared
 // history. A few settings over a preset each; a method goes by those that it has parameters for. Static storage.
-List<Preset> resolvePresets();
-const Preset* findResolvePreset(const char* id);  // null when there is none
+OBSCURA_API List<Preset> resolvePresets();
+OBSCURA_API const Preset* findResolvePreset(const char* id);  // null when there is none
 
 // ---- How far occluders reach ----------------------------------------------------------------------------------------
 
@@ -85,9 +94,9 @@ struct Falloff {
     float end = 0.0f;      // metres, ramp only: 0 from here on
 };
 // "quadratic:2", "exponential:0.5", "ramp:0.385:1". False when malformed or a length is not positive.
-bool parseFalloff(const char* text, Falloff& out);
-float evaluate(const Falloff& falloff, float distance);  // metres -> [0,1]
-float reach(const Falloff& falloff);                     // metres beyond which it counts as 0 (exponential: 1/256 is left)
+OBSCURA_API bool parseFalloff(const char* text, Falloff& out);
+OBSCURA_API float evaluate(const Falloff& falloff, float distance);  // metres -> [0,1]
+OBSCURA_API float reach(const Falloff& falloff);                     // metres beyond which it counts as 0 (exponential: 1/256 is left)
 
 // ---- The door for host engines --------------------------------------------------------------------------------------
 
@@ -125,8 +134,8 @@ struct DeviceDesc {
 };
 
 struct Context;                          // opaque; destroy() before the device
-Status create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
-void destroy(Context* context) noexcept; // the caller has waited for the GPU; null is ignored
+OBSCURA_API Status create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
+OBSCURA_API void destroy(Context* context) noexcept; // the caller has waited for the GPU; null is ignored
 
 // Which method the next record() runs. Unknown ids and settings are Status::invalid with a log line that lists what there
 // is; values out of range are clamped. Pipelines are made here, not in record().
@@ -136,7 +145,7 @@ struct MethodSettings {
     Falloff falloff;                     // the same question to every method
     const char* resolve = nullptr;       // of resolvePresets(), over the preset; null: as that says
 };
-Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
+OBSCURA_API Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
 
 struct ImageView {
     VkImage image = VK_NULL_HANDLE;      // yours, until the GPU is done with the frame
@@ -204,15 +213,15 @@ struct Output {
     VkImageView view = VK_NULL_HANDLE;   // 2D, one mip
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL: reads in compute and fragment shaders need no barrier
 };
-Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept;
+OBSCURA_API Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept;
 
-uint64_t memoryUse(const Context* context) noexcept;  // bytes of device memory held
+OBSCURA_API uint64_t memoryUse(const Context* context) noexcept;  // bytes of device memory held
 // Before there is any: what a context comes to hold that records frames like this one with the method now set. Of the frame's images
 // only size and format count, and one with a format counts as given. Allocates no device memory. 0, logged, where record() would refuse.
-uint64_t memoryUse(Context* context, const Frame& frame) noexcept;
+OBSCURA_API uint64_t memoryUse(Context* context, const Frame& frame) noexcept;
 
 struct PassTime { const char* name; double milliseconds; };
-List<PassTime> timings(Context* context) noexcept;  // of the newest finished frame; valid until the next record(), owned by the context
+OBSCURA_API List<PassTime> timings(Context* context) noexcept;  // of the newest finished frame; valid until the next record(), owned by the context
 
 }  // namespace obscura::ao
 
