@@ -1,6 +1,8 @@
-// Frames of every kind of method at two sizes, and a look at each picture: open floor is open, the crease below the wall is not.
+// renderer [FOLDER]: frames of every kind of method at two sizes, and a check of each picture: open floor is open, the crease below
+// the wall is not. Writes the pictures to FOLDER, METHOD-WIDTHxHEIGHT.pgm.
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "obscurance.h"
 #include "renderer.h"
@@ -32,9 +34,17 @@ void look(const Renderer& renderer, const std::vector<uint8_t>& picture, const c
     expect(crease.mean() < open.mean() - 0.07 && crease.mean() > 0.4, "the crease is not darker, or black", method);
 }
 
+bool write(const std::string& name, const Renderer& renderer, const std::vector<uint8_t>& picture) {
+    std::FILE* file = std::fopen(name.c_str(), "wb");
+    if (!file) return false;
+    std::fprintf(file, "P5 %u %u 255\n", renderer.size.width, renderer.size.height);
+    const bool complete = std::fwrite(picture.data(), 1, picture.size(), file) == picture.size();
+    return std::fclose(file) == 0 && complete;
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
     Renderer renderer;
     {
         Obscurance obscurance(renderer);
@@ -48,7 +58,12 @@ int main() {
                     if (!picture.image) return std::printf("WRONG: %s: record\n", method), 1;
                     renderer.end(picture.image, picture.layout, 1);
                 }
-                look(renderer, renderer.wait(), method);
+                const std::vector<uint8_t> picture = renderer.wait();
+                look(renderer, picture, method);
+                if (argc > 1) {
+                    const std::string name = std::string(argv[1]) + "/" + method + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + ".pgm";
+                    expect(write(name, renderer, picture), "the picture cannot be written", method);
+                }
             }
         }
         expect(!obscurance.use("no such method"), "an unknown method is taken", "setMethod");
