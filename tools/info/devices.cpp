@@ -67,7 +67,8 @@ void prove(const Functions& vk, VkPhysicalDevice physical, uint32_t family, std:
     ao::Context* context = nullptr;
     if (ao::create(desc, &context) == ao::Status::ok) {
         for (const ao::MethodInfo* method : ao::methods())
-            if (ao::setMethod(context, method->id, {}) != ao::Status::ok) missing.push_back(std::string("setMethod(") + method->id + ") failed");
+            if (ao::setMethod(context, method->id, {}) != ao::Status::ok)
+                missing.push_back(std::string("setMethod(") + method->id + ") failed");
     } else if (missing.empty()) {
         missing.push_back("obscura::ao::create failed");
     }
@@ -120,7 +121,8 @@ std::vector<DeviceReport> reportDevices(PFN_vkGetInstanceProcAddr load, std::str
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pApplicationInfo = &application;
     if (const VkResult result = vk.get<PFN_vkCreateInstance>("vkCreateInstance")(&info, nullptr, &vk.instance)) {
-        error = result == VK_ERROR_INCOMPATIBLE_DRIVER ? "no Vulkan driver is installed" : "vkCreateInstance failed with VkResult " + std::to_string(result);
+        error = result == VK_ERROR_INCOMPATIBLE_DRIVER ? "no Vulkan driver is installed"
+                                                       : "vkCreateInstance failed with VkResult " + std::to_string(result);
         return {};
     }
     const auto enumerate = vk.get<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices");

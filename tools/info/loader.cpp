@@ -20,7 +20,8 @@ const char* loaderName() {
 PFN_vkGetInstanceProcAddr openLoader() {
 #ifdef _WIN32
     const HMODULE library = LoadLibraryA(loaderName());
-    return library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(reinterpret_cast<void*>(GetProcAddress(library, "vkGetInstanceProcAddr"))) : nullptr;
+    if (!library) return nullptr;
+    return reinterpret_cast<PFN_vkGetInstanceProcAddr>(reinterpret_cast<void*>(GetProcAddress(library, "vkGetInstanceProcAddr")));
 #else
     void* library = dlopen(loaderName(), RTLD_NOW | RTLD_LOCAL);
     return library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr")) : nullptr;
