@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "ao/summed_area.h"
 #include "gpu/resources.h"
 #include "gpu/test_device.h"
 #include "gpu/test_shaders.h"
+#include "gpu/vulkan_counter.h"
 
 namespace obscura::test {
 namespace {
@@ -74,45 +77,6 @@ protected:
         }
     }
 
-    struct Times { double table = 1e9, byShader = 1e9, byDriver = 1e9; };  // milliseconds, the best of some runs
-    // Of a table without layers, and of copies of its bytes.
-    Times times(uvec2 size) {
-        TestShaders texts;
-        texts.add("copy.comp", "#version 460\nlayout(local_size_x = 64) in;\nlayout(binding = 0, std430) readonly buffer From { uvec4 from[]; };\n"
-            "layout(binding = 1, std430) writeonly buffer To { uvec4 to[]; };\nlayout(push_constant) uniform Constants { uint count; };\n"
-            "void main() { for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) to[i] = from[i]; }\n");
-        gpu::Program copy;
-        EXPECT_EQ(gpu::Program::compute(m_device, texts.library, "copy.comp", {}, copy), gpu::Status::ok);
-        Times best;
-        const uint64_t bytes = ao::SummedArea::bytes(size, 1);
-        const std::vector<std::byte> zeros(bytes);
-        const gpu::Buffer from = buffer(bytes, zeros.data()), to = buffer(bytes, zeros.data()), other = buffer(bytes, zeros.data());
-        const uint64_t before = m_device.frame();
-        for (int i = 0; i < 24; ++i) {
-            m_device.nextFrame();
-            m_graph.begin();
-            const auto import = [&](const gpu::Buffer& b) { return m_graph.import("test", b, graph::Graph::Shared::written); };
-            const graph::BufferId table = import(to), target = import(other);
-            m_sums.add(m_graph, "sums", import(from), table, size);
-            m_graph.pass("shader", copy).read(table).write(target).constants(uint32_t(bytes / 16)).dispatch(64 * 1024);
-            m_graph.pass("driver").use(table, graph::Access::transferRead).use(target, graph::Access::transferWrite).record([&](const graph::PassContext& c) {
-                const VkBufferCopy region{0, 0, bytes};
-                c.device.vk().CmdCopyBuffer(c.cmd, to.handle(), other.handle(), 1, &region);
-            });
-            EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
-            if (m_graph.timings().frame <= before) continue;  // of what was measured before
-            double sums = 0.0;
-            for (const graph::PassTime& pass : m_graph.timings().passes) {
-                if (pass.name == "shader") best.byShader = std::min(best.byShader, pass.milliseconds);
-                if (pass.name == "driver") best.byDriver = std::min(best.byDriver, pass.milliseconds);
-                if (pass.name.starts_with("sums")) sums += pass.milliseconds;
-            }
-            best.table = std::min(best.table, sums);
-        }
-        m_device.waitIdle();
-        return best;
-    }
-
     gpu::Device& m_device = device();
     gpu::ShaderLibrary m_shaders;
     graph::Graph m_graph{m_device};
@@ -139,14 +103,62 @@ TEST_P(SummedAreaTest, layersSumTheirOwnTexels) {
     check({61, 47}, {{1, 1}});
     check({33, 8}, {{3, 0}, {3, 1}, {3, 2}, {3, 3}});
 }
-using SummedAreaSpeed = SummedAreaTest;
-INSTANTIATE_TEST_SUITE_P(Parts, SummedAreaSpeed, testing::Values(0));
 
-TEST_P(SummedAreaSpeed, isThatOfAFewCopies) {
-    for (const uvec2 size : {uvec2{640, 360}, uvec2{1152, 648}, uvec2{2304, 1296}}) {
-        const Times t = times(size);
-        printf("%ux%u: table %.2f ms, %.1f copies by a shader, %.1f by the driver\n", size.x, size.y, t.table, t.table / t.byShader, t.table / t.byDriver);
-        EXPECT_LT(t.table, 6.0 * t.byShader) << "two passes that read and write once should be two copies, and clocks are rough";
+// What a table costs, counted: two dispatches, of which each goes once over what it reads and writes; a copy of the table reads and writes
+// as much as either. The times that go with it: passes "statistical.root rows" and "... columns" of obscura-bench --method statistical.
+TEST_P(SummedAreaTest, costsTwoPassesOverTheTable) {
+    VulkanCounter counter(m_device);
+    const uint32_t lines = 8;  // a workgroup's, of sum_rows.comp and sum_columns.comp
+    for (const uvec2 size : {uvec2{640, 360}, uvec2{1152, 648}, uvec2{100, 63}}) {
+        counter.clear();
+        check(size, {});
+        ASSERT_EQ(counter.dispatches.size(), 2u);
+        const Dispatch &rows = counter.dispatches[0], &columns = counter.dispatches[1];
+        EXPECT_EQ(rows.pass, "sums rows");
+        EXPECT_EQ(columns.pass, "sums columns");
+        EXPECT_EQ(rows.groups, (std::array<uint32_t, 3>{(size.y + lines - 1) / lines, 1, 1}));
+        EXPECT_EQ(columns.groups, (std::array<uint32_t, 3>{(size.x + 1 + lines - 1) / lines, 1, 1}));
+    }
+}
+
+// Of shared/scan.glsl, which both passes run: what an invocation loads and stores, counted in the shader itself.
+TEST_P(SummedAreaTest, aLineIsReadOnceOrTwiceAndWrittenOnce) {
+    TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "count.comp", root = std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders";
+    std::ofstream(file) << R"(#version 460
+#extension GL_GOOGLE_include_directive : require
+const uint kScanLines = 8u, kScanMost = 16u;
+layout(local_size_x = 8, local_size_y = 16) in;
+layout(set = 0, binding = 0, std430) buffer Counts { uint loads, stores; };
+layout(push_constant) uniform Constants { uint lines, count; };
+uvec4 scanLoad(uint line, uint i) { atomicAdd(loads, 1u); return uvec4(i); }
+void scanStore(uint line, uint i, uvec4 sum) { atomicAdd(stores, 1u); }
+#include "shared/scan.glsl"
+void main() { scanLines(gl_GlobalInvocationID.x, count, gl_GlobalInvocationID.x < lines); }
+)";
+    gpu::Shader shader;
+    std::string error;
+    std::vector<std::filesystem::path> files;
+    ASSERT_TRUE(gpu::compileShader(file, root, shader, error, files)) << error;
+    const std::string reflection = describe(shader);
+    const gpu::EmbeddedShader embedded{"count.comp", shader.spirv, reflection.c_str()};
+    m_shaders.add({&embedded, 1});
+    gpu::Program program;
+    ASSERT_EQ(gpu::Program::compute(m_device, m_shaders, "count.comp", {{0, GetParam()}}, program), gpu::Status::ok);
+    for (const uvec2 size : {uvec2{640, 360}, uvec2{17, 9}, uvec2{1, 1}}) {
+        const gpu::Buffer counts = buffer(8);
+        std::memset(counts.mapped(), 0, 8);
+        m_device.nextFrame();
+        m_graph.begin();
+        const graph::BufferId target = m_graph.import("counts", counts, graph::Graph::Shared::written);
+        m_graph.pass("count", program).write(target).constants(uvec2{size.y, size.x}).dispatch(size.y);
+        gpu::Status status = gpu::Status::ok;
+        ASSERT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph.execute(cmd); }), gpu::Status::ok);
+        ASSERT_EQ(status, gpu::Status::ok);
+        uint32_t loads[2];  // and stores
+        std::memcpy(loads, counts.mapped(), 8);
+        EXPECT_EQ(loads[0], (GetParam() > 1 ? 2 : 1) * size.x * size.y);
+        EXPECT_EQ(loads[1], size.x * size.y);
     }
 }
 

@@ -13,9 +13,9 @@ foreach(seed ${seeds})
     math(EXPR number "${number} + 1")
   endif()
 endforeach()
-# Hence the timeout: Draco may spend a few seconds on one damaged stream, more when instrumented and on a busy machine.
+# The timeout, seconds, finds endless loops: Draco may spend a few seconds on one damaged stream, far more when instrumented on a busy machine.
 execute_process(
-  COMMAND ${FUZZER} -max_total_time=${SECONDS} -timeout=20 -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1
+  COMMAND ${FUZZER} -max_total_time=${SECONDS} -timeout=120 -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1
           -artifact_prefix=${CORPUS}/../ ${CORPUS} ${CORPUS}/../seeds
   RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
