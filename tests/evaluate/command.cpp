@@ -1,20 +1,16 @@
 #include "command.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <sstream>
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace obscura::evaluate {
 
 namespace fs = std::filesystem;
-
-size_t Ended::errorLines() const { return size_t(std::count(error.begin(), error.end(), '\n')); }
 
 std::string textOf(const fs::path& file) {
     std::stringstream text;
@@ -22,13 +18,7 @@ std::string textOf(const fs::path& file) {
     return text.str();
 }
 
-Ended runTool(const std::string& arguments) {
-    const Scratch scratch;
-    const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", OBSCURA_EVALUATE, arguments, (scratch / "out").string(),
-                                            (scratch / "error").string());
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(scratch / "out"), textOf(scratch / "error")};
-}
+Ended runTool(const std::string& arguments) { return test::runShell(shellCommand("{} ", OBSCURA_EVALUATE) + arguments); }
 
 Scratch::Scratch() {
     static int count = 0;

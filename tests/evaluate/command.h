@@ -4,16 +4,14 @@
 #include <filesystem>
 #include <string>
 
+#include "../shell.h"
 #include "truth/captured_frame.h"
 
 namespace obscura::evaluate {
 
-struct Ended {
-    int code = -1;
-    std::string out, error;
-    size_t errorLines() const;
-};
-Ended runTool(const std::string& arguments);
+using test::Ended;
+using test::shellCommand;
+Ended runTool(const std::string& arguments);  // as a shell reads them: see shellCommand()
 
 // A folder that goes with its owner.
 class Scratch {

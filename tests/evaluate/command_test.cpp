@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -30,8 +29,8 @@ protected:
     // A broken frame is refused with one line that holds `expected`, and nothing appears.
     void expectRefused(const std::string& expected, const std::string& more = "") {
         const size_t before = m_scratch.files();
-        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --json '{}' --out '{}' {}", exr().string(), camera().string(),
-                                                (m_scratch / "e.json").string(), (m_scratch / "out").string(), more));
+        const Ended ended = runTool(shellCommand("--capture {} --camera {} --json {} --out {} ", exr(), camera(), m_scratch / "e.json",
+                                                 m_scratch / "out") + more);
         EXPECT_EQ(ended.code, 2) << ended.error;
         EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
         EXPECT_NE(ended.error.find(expected), std::string::npos) << ended.error;
@@ -48,9 +47,9 @@ protected:
 };
 
 TEST_F(OnAFrame, numbersPicturesAndTables) {
-    const Ended ended = runTool(fmt::format(
-        "--capture '{}' --camera '{}' --method hbao --preset all --falloff quadratic:2,exponential:1 --rays 64 --frames 2 --json '{}' --out '{}'",
-        exr().string(), camera().string(), (m_scratch / "e.json").string(), (m_scratch / "out").string()));
+    const Ended ended = runTool(shellCommand(
+        "--capture {} --camera {} --method hbao --preset all --falloff quadratic:2,exponential:1 --rays 64 --frames 2 --json {} --out {}",
+        exr(), camera(), m_scratch / "e.json", m_scratch / "out"));
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json rows = json::parse(textOf(m_scratch / "e.json"));
     ASSERT_GE(rows.size(), 4u);
@@ -68,9 +67,9 @@ TEST_F(OnAFrame, numbersPicturesAndTables) {
         EXPECT_TRUE(fs::exists(m_scratch / "out" / name)) << name;
 
     // The references it wrote are references it reads, and judge alike.
-    const Ended again = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --channel screen.quadratic_2 --json '{}'",
-                                            exr().string(), camera().string(), (m_scratch / "out/corner.capture.reference.exr").string(),
-                                            (m_scratch / "again.json").string()));
+    const Ended again = runTool(shellCommand("--capture {} --camera {} --frames 1 --reference {} --channel screen.quadratic_2 --json {}",
+                                            exr(), camera(), m_scratch / "out/corner.capture.reference.exr",
+                                            m_scratch / "again.json"));
     ASSERT_EQ(again.code, 0) << again.error;
     const json row = json::parse(textOf(m_scratch / "again.json"))[0];
     EXPECT_NEAR(row["eA"].get<double>(), rows[0]["eA"].get<double>(), 1e-4);
@@ -78,18 +77,18 @@ TEST_F(OnAFrame, numbersPicturesAndTables) {
 
 TEST_F(OnAFrame, everyThirdPixelIsJudgedAsInTheWholeReference) {
     const auto evaluate = [&](const std::string& more) {
-        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --target-error 0 --frames 1 --json '{}' {}", exr().string(),
-                                                camera().string(), (m_scratch / "e.json").string(), more));
+        const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --target-error 0 --frames 1 --json {} ", exr(), camera(),
+                                                 m_scratch / "e.json") + more);
         EXPECT_EQ(ended.code, 0) << ended.error;
         json row = json::parse(textOf(m_scratch / "e.json"))[0];
         for (const char* key : {"reference", "milliseconds", "referenceRays", "referenceError"}) row.erase(key);
         row["printed"] = ended.out;
         return row;
     };
-    const json whole = evaluate(fmt::format("--out '{}'", (m_scratch / "out").string()));
+    const json whole = evaluate(shellCommand("--out {}", m_scratch / "out"));
     const truth::Picture reference = truth::readExr(m_scratch / "out/corner.capture.reference.exr");
-    json sparse = evaluate(fmt::format("--every 3 --out '{}'", (m_scratch / "few").string()));
-    json same = evaluate(fmt::format("--every 3 --reference '{}' --channel screen.quadratic_2", (m_scratch / "out/corner.capture.reference.exr").string()));
+    json sparse = evaluate(shellCommand("--every 3 --out {}", m_scratch / "few"));
+    json same = evaluate(shellCommand("--every 3 --reference {} --channel screen.quadratic_2", m_scratch / "out/corner.capture.reference.exr"));
 
     EXPECT_NE(sparse["printed"].get<std::string>().find("every 3 x 3 px"), std::string::npos) << sparse["printed"];
     EXPECT_NE(sparse["printed"].get<std::string>().find(" - "), std::string::npos) << sparse["printed"];
@@ -132,8 +131,8 @@ TEST_F(OnAFrame, deviceDepthWorldNormalsAndOtherNamesAreTheSameFrame) {
     truth::writeExr(m_scratch / "dump.exr", picture);
     std::ofstream(m_scratch / "pose.json") << camera.dump();
     const auto errorOf = [&](const fs::path& image, const fs::path& pose) {
-        const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --frames 1 --json '{}'", image.string(), pose.string(),
-                                                (m_scratch / "e.json").string()));
+        const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --frames 1 --json {}", image, pose,
+                                                m_scratch / "e.json"));
         EXPECT_EQ(ended.code, 0) << ended.error;
         return json::parse(textOf(m_scratch / "e.json"))[0]["eA"].get<double>();
     };
@@ -143,7 +142,7 @@ TEST_F(OnAFrame, deviceDepthWorldNormalsAndOtherNamesAreTheSameFrame) {
 
 TEST_F(OnAFrame, missingNormalsAreMadeFromDepth) {
     rewrite([](truth::Picture& picture) { std::erase_if(picture.channels, [](const auto& c) { return c.name != "Z"; }); });
-    const Ended ended = runTool(fmt::format("--capture '{}' --camera '{}' --rays 64 --frames 1", exr().string(), camera().string()));
+    const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --frames 1", exr(), camera()));
     EXPECT_EQ(ended.code, 0) << ended.error;
     EXPECT_NE(ended.out.find("reconstructed"), std::string::npos) << ended.out;
 }
@@ -192,18 +191,18 @@ TEST_F(OnAFrame, againstAReferenceOfAnotherSize) {
     truth::Picture picture;
     picture.add("world.quadratic_2", truth::Plane(8, 8));
     truth::writeExr(m_scratch / "r.exr", picture);
-    expectRefused("8 x 8", fmt::format("--reference '{}'", (m_scratch / "r.exr").string()));
+    expectRefused("8 x 8", shellCommand("--reference {}", m_scratch / "r.exr"));
 }
 TEST_F(OnAFrame, againstAChannelThatIsNotThere) {
     truth::Picture picture;
     picture.add("world.quadratic_2", truth::Plane(64, 36));
     truth::writeExr(m_scratch / "r.exr", picture);
-    expectRefused("world.quadratic_2", fmt::format("--reference '{}' --falloff linear:1", (m_scratch / "r.exr").string()));
+    expectRefused("world.quadratic_2", shellCommand("--reference {} --falloff linear:1", m_scratch / "r.exr"));
 }
 TEST_F(OnAFrame, intoAFolderThatCannotBe) {
     std::ofstream(m_scratch / "file") << "x";
     const Ended ended = runTool(
-        fmt::format("--capture '{}' --camera '{}' --json '{}/e.json'", exr().string(), camera().string(), (m_scratch / "file").string()));
+        shellCommand("--capture {} --camera {} --json {}", exr(), camera(), m_scratch / "file" / "e.json"));
     EXPECT_EQ(ended.code, 2);
     EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
 }
@@ -211,12 +210,12 @@ TEST_F(OnAFrame, intoAFolderThatCannotBe) {
 TEST(OnAScene, whatItCapturesIsWhatItJudged) {
     const Scratch scratch;
     const std::string reference = (scratch / "out/toasters.own.reference.exr").string();
-    const Ended scene = runTool(fmt::format("--scene toasters --size 96x54 --rays 64 --frames 1 --json '{}' --out '{}' --capture-out '{}'",
-                                            (scratch / "a.json").string(), (scratch / "out").string(), (scratch / "frame").string()));
+    const Ended scene = runTool(shellCommand("--scene toasters --size 96x54 --rays 64 --frames 1 --json {} --out {} --capture-out {}",
+                                            scratch / "a.json", scratch / "out", scratch / "frame"));
     ASSERT_EQ(scene.code, 0) << scene.error;
-    const Ended capture = runTool(fmt::format("--capture '{}' --camera '{}' --frames 1 --reference '{}' --json '{}'",
-                                              (scratch / "frame.capture.exr").string(), (scratch / "frame.json").string(), reference,
-                                              (scratch / "b.json").string()));
+    const Ended capture = runTool(shellCommand("--capture {} --camera {} --frames 1 --reference {} --json {}",
+                                              scratch / "frame.capture.exr", scratch / "frame.json", reference,
+                                              scratch / "b.json"));
     ASSERT_EQ(capture.code, 0) << capture.error;
     const json a = json::parse(textOf(scratch / "a.json"))[0], b = json::parse(textOf(scratch / "b.json"))[0];
     EXPECT_NEAR(a["eA"].get<double>(), b["eA"].get<double>(), 2e-4);
@@ -227,11 +226,12 @@ TEST(OnAScene, passesThatOnlySomeFramesHaveAreToldApart) {
     // Layers are drawn in two forms in turn until one of them has proved cheaper.
     const Scratch scratch;
     const std::string file = (scratch / "a.json").string();
-    const Ended ended = runTool(fmt::format("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality --reference screen --json '{}'", file));
+    const Ended ended = runTool(shellCommand("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality"
+                                             " --reference screen --json {}", file));
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json passes = json::parse(textOf(file))[0]["milliseconds"]["passes"];
     EXPECT_TRUE(passes.contains("layers.second hit")) << passes;
-    for (const auto& [name, time] : passes.items()) EXPECT_TRUE(time.is_number() && time.get<double>() > 0.0) << name << ": " << time;
+    for (const auto& [name, time] : passes.items()) EXPECT_TRUE(time.is_number() && time.get<double>() >= 0.0) << name << ": " << time;
 }
 
 TEST(OnAScene, badNamesAreOneLine) {
@@ -250,13 +250,13 @@ TEST(OnAScene, theGateFailsWhenACellWorsens) {
     std::ofstream(file)
         << R"({"size":[64,36],"guard":0.1,"rays":32,"seed":1,"relative":0.03,"absolute":0.0005,"scenes":["toasters"],"cameras":["own"],)"
            R"("falloffs":["quadratic:2"],"references":["world"],"cells":[]})";
-    EXPECT_EQ(runTool(fmt::format("--renew-baseline '{}' --method none", file)).code, 0);
-    EXPECT_EQ(runTool(fmt::format("--check-baseline '{}' --method none", file)).code, 0);
+    EXPECT_EQ(runTool(shellCommand("--renew-baseline {} --method none", file)).code, 0);
+    EXPECT_EQ(runTool(shellCommand("--check-baseline {} --method none", file)).code, 0);
     json baseline = json::parse(textOf(file));
     ASSERT_EQ(baseline["cells"].size(), 1u);
     baseline["cells"][0]["eA"] = baseline["cells"][0]["eA"].get<double>() * 0.96;
     std::ofstream(file) << baseline.dump();
-    const Ended worse = runTool(fmt::format("--check-baseline '{}' --method none", file));
+    const Ended worse = runTool(shellCommand("--check-baseline {} --method none", file));
     EXPECT_EQ(worse.code, 1);
     EXPECT_NE(worse.out.find("--renew-baseline"), std::string::npos) << worse.out;
 }

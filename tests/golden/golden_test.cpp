@@ -1,5 +1,7 @@
 // Each method's visibility of the toasters, and the final picture, against pictures that somebody looked at. At most 0.1 %
 // of the pixels may differ by more than 5/255: what another driver's rounding does, and less than a mistake does.
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -9,6 +11,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb_image.h>
 
+#include "../shell.h"
 #include "obscura/ao.h"
 
 namespace {
@@ -33,9 +36,11 @@ void check(const std::string& method, const std::string& view) {
     const bool renew = std::getenv("OBSCURA_RENEW_GOLDEN") != nullptr;
     const fs::path target = renew ? golden : made;
     fs::remove(made);
-    const std::string command = std::string(OBSCURA_GAME) + " --headless --scene toasters --time 2.5 --frames 1 --size 320x180 --method " + method +
-                                " --view " + view + " --screenshot " + target.string() + " > /dev/null";
-    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const std::string command = obscura::test::shellCommand(
+        "{} --headless --scene toasters --time 2.5 --frames 1 --size 320x180 --method {} --view {} --screenshot {}", OBSCURA_GAME, method, view,
+        target);
+    const obscura::test::Ended ended = obscura::test::runShell(command);
+    ASSERT_EQ(ended.code, 0) << command << "\n" << ended.error;
     const Pixels now(target), then(golden);
     ASSERT_TRUE(now.rgb) << target;
     ASSERT_TRUE(then.rgb) << golden << " is missing: run tests/golden/renew, look at it, commit it";

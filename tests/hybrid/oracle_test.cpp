@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../shell.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -16,10 +18,11 @@ void expectError(const std::string& scene, double most) {
     const fs::path folder = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
     if (!fs::exists(folder / (scene + ".glb"))) GTEST_SKIP() << "no " << folder / (scene + ".glb") << "; set OBSCURA_ORACLE to the stored references";
     const fs::path result = fs::path(testing::TempDir()) / ("obscura-hybrid-" + scene + ".json");
-    const std::string command = std::string(OBSCURA_EVALUATE) + " --scene " + (folder / (scene + ".glb")).string() + " --camera scene:0 --size 320x180 --method hybrid" +
-                                " --falloff wendland:2 --reference " + (folder / (scene + ".reference.exr")).string() +
-                                " --channel world.wendland_2 --frames 1 --warm-up 1 --json " + result.string() + " > /dev/null";
-    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const std::string command = obscura::test::shellCommand(
+        "{} --scene {} --camera scene:0 --size 320x180 --method hybrid --falloff wendland:2 --reference {} --channel world.wendland_2"
+        " --frames 1 --warm-up 1 --json {}", OBSCURA_EVALUATE, folder / (scene + ".glb"), folder / (scene + ".reference.exr"), result);
+    const obscura::test::Ended ended = obscura::test::runShell(command);
+    ASSERT_EQ(ended.code, 0) << command << "\n" << ended.error;
     const nlohmann::json report = nlohmann::json::parse(std::ifstream(result));
     fs::remove(result);
     double eA = -1.0;

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../shell.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,10 +21,12 @@ struct Error {
 // By method; `settings` as on a command line.
 std::map<std::string, Error> errors(const fs::path& folder, const std::string& scene, const std::string& settings) {
     const fs::path result = fs::path(testing::TempDir()) / ("obscura-offscreen-" + scene + ".json");
-    const std::string command = std::string(OBSCURA_EVALUATE) + " --scene " + (folder / (scene + ".glb")).string() + " --camera scene:0 --size 320x180" +
-                                " --falloff quadratic:2 --reference " + (folder / (scene + ".reference.exr")).string() +
-                                " --channel world.quadratic_2 --frames 1 --warm-up 0 " + settings + " --json " + result.string() + " > /dev/null";
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    const std::string command = obscura::test::shellCommand(
+        "{} --scene {} --camera scene:0 --size 320x180 --falloff quadratic:2 --reference {} --channel world.quadratic_2"
+        " --frames 1 --warm-up 0 --json {} ",
+        OBSCURA_EVALUATE, folder / (scene + ".glb"), folder / (scene + ".reference.exr"), result) + settings;
+    const obscura::test::Ended ended = obscura::test::runShell(command);
+    EXPECT_EQ(ended.code, 0) << command << "\n" << ended.error;
     std::map<std::string, Error> list;
     for (const nlohmann::json& row : nlohmann::json::parse(std::ifstream(result))) list[row.at("method")] = {row.at("eA"), row.at("bias")};
     fs::remove(result);
