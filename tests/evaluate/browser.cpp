@@ -1,5 +1,6 @@
 #include "browser.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -16,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kPatience = 60000;  // milliseconds for any answer: shared machines are slow to start a browser
+constexpr int kPatience = 180000;  // milliseconds for any answer: shared machines are slow to start a browser
 
 std::string findChromium() {
     if (const char* named = std::getenv("OBSCURA_CHROMIUM")) return named;
