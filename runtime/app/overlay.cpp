@@ -1,11 +1,38 @@
 #include "app/overlay.h"
 
+#include <algorithm>
+
 #include <imgui.h>
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_vulkan.h>
 
 namespace obscura::app {
+namespace {
+
+// Dear ImGui's Vulkan back end, 1.86 to 1.91. From 1.90.3 on the render pass is a field of the description; from 1.90 on fonts are
+// uploaded by a command buffer of its own.
+template <class Info>
+bool initBackEnd(Info& info, VkRenderPass renderPass) {
+    if constexpr (requires { info.RenderPass; }) {
+        info.RenderPass = renderPass;
+        return ImGui_ImplVulkan_Init(&info);
+    } else {
+        return ImGui_ImplVulkan_Init(&info, renderPass);
+    }
+}
+
+bool uploadFonts(gpu::Device& device) {
+#if IMGUI_VERSION_NUM >= 19000
+    return ImGui_ImplVulkan_CreateFontsTexture();
+#else
+    const bool done = device.runNow([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); }) == gpu::Status::ok;
+    ImGui_ImplVulkan_DestroyFontUploadObjects();
+    return done;
+#endif
+}
+
+}  // namespace
 
 std::unique_ptr<Overlay> Overlay::create(gpu::Device& device, Window& window, VkFormat format, std::string& error) {
     std::unique_ptr<Overlay> overlay(new Overlay(device));
@@ -36,10 +63,8 @@ std::unique_ptr<Overlay> Overlay::create(gpu::Device& device, Window& window, Vk
     info.ImageCount = info.MinImageCount;  // how many sets of vertex buffers take turns
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.Allocator = device.allocator();
-    overlay->m_vulkanReady = overlay->m_glfwReady && ImGui_ImplVulkan_Init(&info, overlay->m_renderPass);
-    if (!overlay->m_vulkanReady) return nullptr;
-    if (device.runNow([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); }) != gpu::Status::ok) return nullptr;
-    ImGui_ImplVulkan_DestroyFontUploadObjects();
+    overlay->m_vulkanReady = overlay->m_glfwReady && initBackEnd(info, overlay->m_renderPass);
+    if (!overlay->m_vulkanReady || !uploadFonts(device)) return nullptr;
     error.clear();
     return overlay;
 }

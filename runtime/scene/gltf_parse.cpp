@@ -1,5 +1,7 @@
 // tinygltf turns the checked JSON into its structures. It reads no file itself: buffers and images are handed to it
 // under names of ours, so what it asks for and how much is settled before it starts.
+#include <cstdlib>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
@@ -35,7 +37,21 @@ bool readWhole(Bytes* out, std::string*, const std::string& name, void* shelf) {
     *out = std::move(*bytes);
     return true;
 }
+bool sizeOf(size_t* out, std::string*, const std::string& name, void* shelf) {
+    const Bytes* bytes = static_cast<Shelf*>(shelf)->find(name);
+    if (bytes) *out = bytes->size();
+    return bytes != nullptr;
+}
 bool writeWhole(std::string*, const std::string&, const Bytes&, void*) { return false; }
+
+// tinygltf from 2.9 on also asks how long a file is.
+template <class Callbacks = tinygltf::FsCallbacks>
+Callbacks callbacks(Shelf& shelf) {
+    Callbacks result{fileExists, expandPath, readWhole, writeWhole};
+    if constexpr (requires { result.GetFileSizeInBytes; }) result.GetFileSizeInBytes = sizeOf;
+    result.user_data = &shelf;
+    return result;
+}
 
 // Keeps the encoded bytes; they are decoded later, in parallel.
 bool keepEncoded(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size, void*) {
@@ -115,7 +131,7 @@ Asset parse(Context& context, Document& document, bool withImages) {
     asset.hasData = std::move(hasData);
     asset.gltf = std::make_unique<tinygltf::Model>();
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({fileExists, expandPath, readWhole, writeWhole, &shelf});
+    loader.SetFsCallbacks(callbacks(shelf));
     loader.SetImageLoader(keepEncoded, nullptr);
     std::string error, warning;
     bool done = false;

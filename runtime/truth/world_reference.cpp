@@ -1,12 +1,20 @@
-// Rays against triangles; the only file that knows Embree.
+// Rays against triangles, traced with Embree 3 or 4; the only file that includes Embree.
 #include "truth/world_reference.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <memory>
 #include <thread>
 
+#if OBSCURA_EMBREE == 3
 #include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 #include <fmt/format.h>
 
 #include "truth/alpha.h"
@@ -16,6 +24,42 @@ namespace obscura::truth {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Embree 3 and 4 differ in how a query is told that its rays are incoherent: 3 takes a context before the ray, 4 takes arguments
+// behind it, of a type of its own for occlusion.
+class Queries {
+public:
+    explicit Queries(RTCScene scene) : m_scene(scene) {
+#if OBSCURA_EMBREE == 3
+        rtcInitIntersectContext(&m_context);
+        m_context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#else
+        rtcInitIntersectArguments(&m_intersect);
+        rtcInitOccludedArguments(&m_occluded);
+        m_intersect.flags = m_occluded.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+#endif
+    }
+#if OBSCURA_EMBREE == 3
+    void intersect(RTCRayHit& hit) { rtcIntersect1(m_scene, &m_context, &hit); }
+    void intersect(const int* valid, RTCRayHit8& hit) { rtcIntersect8(valid, m_scene, &m_context, &hit); }
+    void occluded(RTCRay& ray) { rtcOccluded1(m_scene, &m_context, &ray); }
+    void occluded(const int* valid, RTCRay8& ray) { rtcOccluded8(valid, m_scene, &m_context, &ray); }
+#else
+    void intersect(RTCRayHit& hit) { rtcIntersect1(m_scene, &hit, &m_intersect); }
+    void intersect(const int* valid, RTCRayHit8& hit) { rtcIntersect8(valid, m_scene, &hit, &m_intersect); }
+    void occluded(RTCRay& ray) { rtcOccluded1(m_scene, &ray, &m_occluded); }
+    void occluded(const int* valid, RTCRay8& ray) { rtcOccluded8(valid, m_scene, &ray, &m_occluded); }
+#endif
+
+private:
+    RTCScene m_scene;
+#if OBSCURA_EMBREE == 3
+    RTCIntersectContext m_context;
+#else
+    RTCIntersectArguments m_intersect;
+    RTCOccludedArguments m_occluded;
+#endif
+};
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -47,10 +91,7 @@ constexpr float kEscaped = std::numeric_limits<float>::infinity();
 
 class Caster {
 public:
-    Caster(RTCScene scene, float length, bool anyHit, bool packets) : m_scene(scene), m_length(length), m_anyHit(anyHit), m_packets(packets) {
-        rtcInitIntersectContext(&m_context);
-        m_context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    }
+    Caster(RTCScene scene, float length, bool anyHit, bool packets) : m_queries(scene), m_length(length), m_anyHit(anyHit), m_packets(packets) {}
 
     void cast(const glm::vec3& origin, const std::array<glm::vec3, kBatch>& directions, Distances& distances) {
         if (!m_packets)
@@ -65,10 +106,10 @@ private:
         hit.ray = {o.x, o.y, o.z, 0.0f, d.x, d.y, d.z, 0.0f, m_length, ~0u, 0u, 0u};
         hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         if (m_anyHit) {
-            rtcOccluded1(m_scene, &m_context, &hit.ray);
+            m_queries.occluded(hit.ray);
             return hit.ray.tfar < 0.0f ? 0.0f : kEscaped;
         }
-        rtcIntersect1(m_scene, &m_context, &hit);
+        m_queries.intersect(hit);
         return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kEscaped : hit.ray.tfar;
     }
 
@@ -85,16 +126,15 @@ private:
             hit.hit.geomID[i] = hit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         }
         if (m_anyHit) {
-            rtcOccluded8(kAll, m_scene, &m_context, &hit.ray);
+            m_queries.occluded(kAll, hit.ray);
             for (int i = 0; i < 8; ++i) distances[i] = hit.ray.tfar[i] < 0.0f ? 0.0f : kEscaped;
         } else {
-            rtcIntersect8(kAll, m_scene, &m_context, &hit);
+            m_queries.intersect(kAll, hit);
             for (int i = 0; i < 8; ++i) distances[i] = hit.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? kEscaped : hit.ray.tfar[i];
         }
     }
 
-    RTCScene m_scene;
-    RTCIntersectContext m_context;
+    Queries m_queries;
     float m_length;
     bool m_anyHit, m_packets;
 };
