@@ -168,6 +168,7 @@ void Device::destroy(VkObjectType type, uint64_t handle) {
         OBSCURA_DESTROY(DESCRIPTOR_POOL, VkDescriptorPool, DestroyDescriptorPool)
         OBSCURA_DESTROY(COMMAND_POOL, VkCommandPool, DestroyCommandPool)
         OBSCURA_DESTROY(QUERY_POOL, VkQueryPool, DestroyQueryPool)
+        OBSCURA_DESTROY(EVENT, VkEvent, DestroyEvent)
         OBSCURA_DESTROY(FENCE, VkFence, DestroyFence)
         OBSCURA_DESTROY(SEMAPHORE, VkSemaphore, DestroySemaphore)
         OBSCURA_DESTROY(SWAPCHAIN_KHR, VkSwapchainKHR, DestroySwapchainKHR)

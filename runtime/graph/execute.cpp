@@ -2,6 +2,7 @@
 // pass can lack one of them.
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -221,12 +222,19 @@ void Graph::timestamp(VkCommandBuffer cmd) {
 }
 
 void Graph::collectTimings(Frame& frame) {
-    if (frame.queryCount < 2) return;
-    std::vector<uint64_t> ticks(frame.queryCount);
-    const VkResult result = m_device.vk().GetQueryPoolResults(m_device.handle(), frame.queries, 0, frame.queryCount, ticks.size() * 8, ticks.data(), 8,
-                                                              VK_QUERY_RESULT_64_BIT);
-    const uint32_t count = frame.queryCount;
-    frame.queryCount = 0;
+    const uint32_t count = std::exchange(frame.queryCount, 0);
+    if (count < 2) return;
+    const gpu::Api& vk = m_device.vk();
+    // A host may record a frame and never submit it. Its queries were not reset then, and reading them is an error.
+    const VkResult executed = vk.GetEventStatus(m_device.handle(), frame.executed);
+    m_lost |= executed == VK_ERROR_DEVICE_LOST;
+    if (executed != VK_EVENT_SET) return;
+    if (vk.ResetEvent(m_device.handle(), frame.executed) != VK_SUCCESS) {
+        m_device.release(VK_OBJECT_TYPE_EVENT, frame.executed);
+        frame.executed = VK_NULL_HANDLE;
+    }
+    std::vector<uint64_t> ticks(count);
+    const VkResult result = vk.GetQueryPoolResults(m_device.handle(), frame.queries, 0, count, ticks.size() * 8, ticks.data(), 8, VK_QUERY_RESULT_64_BIT);
     m_lost |= result == VK_ERROR_DEVICE_LOST;
     if (result != VK_SUCCESS) return;
     const gpu::Caps& caps = m_device.caps();
@@ -246,8 +254,16 @@ gpu::Status Graph::prepare() {
         if (!pass.m_program || pass.m_bound.empty()) continue;
         if (const gpu::Status status = fillSet(pass); status != gpu::Status::ok) return status;
     }
+    if (!m_timing || !m_device.caps().timestamps) return gpu::Status::ok;
+    if (!m_frame->executed) {
+        const VkEventCreateInfo info{VK_STRUCTURE_TYPE_EVENT_CREATE_INFO};
+        VkEvent event = VK_NULL_HANDLE;
+        if (const VkResult made = m_device.vk().CreateEvent(m_device.handle(), &info, m_device.allocator(), &event))
+            return gpu::fail(m_device, gpu::fromVulkan(made), "graph: no event that tells whether a frame was executed");
+        m_frame->executed = event;
+    }
     const uint32_t wanted = uint32_t(m_plan.steps.size()) + 1;
-    if (!m_timing || !m_device.caps().timestamps || m_frame->queryCapacity >= wanted) return gpu::Status::ok;
+    if (m_frame->queryCapacity >= wanted) return gpu::Status::ok;
     m_device.release(VK_OBJECT_TYPE_QUERY_POOL, m_frame->queries);
     m_frame->queries = VK_NULL_HANDLE;
     m_frame->queryCapacity = 0;
@@ -296,6 +312,13 @@ gpu::Status Graph::execute(VkCommandBuffer cmd) {
         }
     }
     barriers(cmd, m_plan.closing);
+    if (timing) {
+        VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+        VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        info.memoryBarrierCount = 1;
+        info.pMemoryBarriers = &all;
+        vk.CmdSetEvent2(cmd, m_frame->executed, &info);
+    }
     undo.graph = nullptr;
 
     // Hand the states on to the next frame.

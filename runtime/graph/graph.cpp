@@ -97,6 +97,7 @@ Graph::~Graph() {
     for (auto& frame : m_frames) {
         for (VkDescriptorPool pool : frame->pools) m_device.release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool);
         m_device.release(VK_OBJECT_TYPE_QUERY_POOL, frame->queries);
+        m_device.release(VK_OBJECT_TYPE_EVENT, frame->executed);
     }
 }
 

@@ -33,6 +33,7 @@ struct Graph::Frame {
     std::vector<VkDescriptorPool> pools;
     size_t pool = 0;                               // the one being allocated from
     VkQueryPool queries = VK_NULL_HANDLE;
+    VkEvent executed = VK_NULL_HANDLE;             // set by the frame itself: without it the queries were never reset
     uint32_t queryCount = 0, queryCapacity = 0;
     std::vector<std::string> passNames;            // one between each two timestamps
     uint64_t number = 0;

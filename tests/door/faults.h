@@ -31,7 +31,7 @@ struct Faults {
     // Queries of what is done already, resets and names: they cannot fail, or it does not matter.
     static bool due(const char* name) {
         if (countdown < 0) return false;
-        if (only.empty() ? !std::strcmp(name, "GetQueryPoolResults") || !std::strcmp(name, "ResetDescriptorPool") || !std::strcmp(name, "SetDebugUtilsObjectNameEXT") : only != name)
+        if (only.empty() ? !std::strcmp(name, "GetQueryPoolResults") || !std::strcmp(name, "GetEventStatus") || !std::strcmp(name, "ResetDescriptorPool") || !std::strcmp(name, "SetDebugUtilsObjectNameEXT") : only != name)
             return false;
         if (countdown-- > 0) return false;
         failed = name;
