@@ -93,6 +93,13 @@ TEST(Options, aGalleryShowsEverythingUnlessTold) {
     EXPECT_TRUE(options->reference.world && options->reference.screen);
 }
 
+TEST(Options, theGalleryLiesInsideOut) {
+    const char* inside[] = {"obscura-evaluate", "--gallery", "--scene", "toasters", "--out", "some/folder"};
+    EXPECT_EQ(parseOptions(6, inside)->page, "some/folder/gallery.html");
+    const char* named[] = {"obscura-evaluate", "--gallery", "mine.html", "--scene", "toasters", "--out", "some/folder"};
+    EXPECT_EQ(parseOptions(7, named)->page, "mine.html");
+}
+
 Baseline small() {
     Baseline baseline;
     baseline.scenes = {"toasters"};

@@ -158,7 +158,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference");
     cli.add_option("--out", options.out, "Folder for visibility (EXR, PNG), error pictures, references, metrics.json and metrics.md");
     cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json, for others");
-    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (gallery.html)")
+    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (gallery.html, inside --out when that is given)")
                         ->expected(0, 1)
                         ->default_str("gallery.html");
     auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's error is worse than this file says");
@@ -179,7 +179,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     if (*gallery) {
         options.job = Job::gallery;
-        options.page = page.empty() ? "gallery.html" : page;
+        options.page = page.empty() ? options.out / "gallery.html" : std::filesystem::path(page);
         if (cli.count("--method") == 0) judged.methods = {"all"};
         if (falloffTexts.empty()) falloffTexts = {"quadratic:2", "exponential:1"};
         if (references.empty()) references = {"world", "screen"};

@@ -125,7 +125,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (!frames.empty()) throw Complaint("--print-jobs: shares out all frames; leave out --frames");
         if (options.jobs > options.settings.length) throw Complaint(fmt::format("--print-jobs {}: there are only {} frames", options.jobs, options.settings.length));
         options.job = Job::printJobs;
-        for (int i = 0; i < argc; ++i) {
+        options.program = app::shellWord(argv[0]);
+        for (int i = 1; i < argc; ++i) {
             const std::string word = argv[i];
             if (word == "--slurm") continue;
             if (word == "--print-jobs" || word == "--out") {
@@ -133,7 +134,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                 continue;
             }
             if (word.starts_with("--print-jobs=") || word.starts_with("--out=")) continue;
-            options.rest += (options.rest.empty() ? "" : " ") + app::shellWord(word);
+            options.arguments += " " + app::shellWord(word);
         }
     }
     return options;
@@ -143,14 +144,14 @@ std::string jobList(const Options& options) {
     const std::string out = options.settings.out.string();
     const auto command = [&](uint32_t job) {
         const uint32_t first = uint32_t(uint64_t(options.settings.length) * job / options.jobs), end = uint32_t(uint64_t(options.settings.length) * (job + 1) / options.jobs);
-        return fmt::format("{} --no-video --frames {}:{} --out {}", options.rest, first, end, app::shellWord(fmt::format("{}/part-{}", out, job)));
+        return fmt::format("{}{} --no-video --frames {}:{} --out {}", options.program, options.arguments, first, end, app::shellWord(fmt::format("{}/part-{}", out, job)));
     };
     std::string parts, commands;
     for (uint32_t job = 0; job < options.jobs; ++job) {
         parts += fmt::format("{}{}/part-{}", job ? "," : "", out, job);
         commands += options.slurm ? fmt::format("  {}) {} ;;\n", job, command(job)) : command(job) + "\n";
     }
-    const std::string merge = fmt::format("{} --merge {} --out {}", options.rest.substr(0, options.rest.find(' ')), app::shellWord(parts), app::shellWord(out));
+    const std::string merge = fmt::format("{} --merge {} --out {}", options.program, app::shellWord(parts), app::shellWord(out));
     if (!options.slurm) return commands + "# then: " + merge + "\n";
     return fmt::format("#!/bin/sh\n#SBATCH --job-name=obscura-flythrough\n#SBATCH --array=0-{}\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n# then: {}\n",
                        options.jobs - 1, commands, merge);

@@ -19,7 +19,7 @@ struct Options {
     std::filesystem::path baseline;
     uint32_t jobs = 0;
     bool slurm = false;
-    std::string rest;                              // of the command line, for the jobs
+    std::string program, arguments;                // for --print-jobs: argv[0] and what each job repeats, as words of a shell
     std::string device, validation = "off";
     bool verbose = false;
 };
