@@ -1,4 +1,5 @@
 // The registry, the scenes and the devices, printed.
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>

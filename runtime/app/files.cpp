@@ -1,5 +1,6 @@
 #include "app/files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,6 @@
 #include "render/voxel_volume.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace obscura::render {

@@ -1,7 +1,9 @@
 // Accessors to flat arrays: every component type, normalized integers, strides, padded matrices, sparse substitution.
 // Ranges were settled by the check; here only values can be wrong.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "voxel/rasterise.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>

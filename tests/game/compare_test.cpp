@@ -1,4 +1,5 @@
 // Two settings on one frame: each side is what that setting alone would have drawn, and costs nothing while it is off.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

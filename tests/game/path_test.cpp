@@ -1,4 +1,6 @@
 // Camera paths: replayed twice they give the same bytes, whole, at fixed steps; obscura-flythrough takes them.
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // No device: shaders as text and as SPIR-V.
+#include <algorithm>
 #include <thread>
 
 #include "gpu/test_shaders.h"

@@ -1,5 +1,6 @@
 // The paper's temporal filter (k = 0.5) on the toasters' flythrough: how much steadier it is, and what it leaves behind
 // toasters that walk.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

@@ -1,5 +1,6 @@
 #include "bench.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>

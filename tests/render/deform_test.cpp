@@ -1,4 +1,5 @@
 // The deform pass against scene::deform.
+#include <algorithm>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>

@@ -1,4 +1,5 @@
 // The frame as a whole: guard band, culling, determinism, normals, views, what is released.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,6 @@
 // Accessors of every kind, seen through the meshes they become.
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"

@@ -1,4 +1,5 @@
 // FLIP against closed forms and against its definition evaluated plainly: 2D kernels, one pixel at a time, double precision.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 // The screen reference against closed forms for the solids that a depth buffer describes, under validation.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "gpu/test_device.h"

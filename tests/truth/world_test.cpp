@@ -1,5 +1,7 @@
 // The world reference against closed forms, and what it promises about threads, packets, masks and errors.
+#include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include <gtest/gtest.h>
 

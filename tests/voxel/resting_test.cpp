@@ -1,5 +1,6 @@
 // What rests: rasterised once, kept on disk, made again when the file is not what it should be.
 #include <fstream>
+#include <limits>
 
 #include "shapes.h"
 #include "voxel/resting.h"

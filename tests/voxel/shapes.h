@@ -1,6 +1,8 @@
 // Triangles and worlds for the voxels' tests.
 #pragma once
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <set>

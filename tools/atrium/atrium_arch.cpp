@@ -1,6 +1,7 @@
 #include "atrium/atrium_parts.h"
 #include "meshkit/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -1,5 +1,6 @@
 #include "balls.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>

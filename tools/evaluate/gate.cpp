@@ -1,5 +1,6 @@
 #include "gate.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #include "references.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -1,4 +1,7 @@
 // A captured frame as a shot: two files in, its depth and normals on the GPU in the form that methods read.
+#include <algorithm>
+#include <cmath>
+
 #include <unistd.h>
 
 #include <fmt/format.h>

@@ -4,6 +4,7 @@
 #include "toasters/toaster_motion.h"
 #include "toasters/tray.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -1,5 +1,6 @@
 #include "course.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
