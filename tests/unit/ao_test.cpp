@@ -1,4 +1,5 @@
 // The library's pure parts: falloffs, parameter tables, views read off projection matrices.
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
