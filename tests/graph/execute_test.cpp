@@ -215,6 +215,42 @@ TEST_F(GraphTest, aTimestampStandsBehindEveryPassAndTheirTicksAreItsTime) {
     EXPECT_EQ(counter.events, (std::vector<std::string>{"pass one", "dispatch", "end"}));
 }
 
+// A host may record a frame and drop the command buffer. Its queries were never reset then, so reading them is an error.
+TEST_F(GraphTest, timestampsOfAFrameThatWasNeverSubmittedAreNotRead) {
+    if (!m_device.caps().timestamps) GTEST_SKIP() << "this device has no timestamps";
+    const gpu::Api& vk = m_device.vk();
+    test::VulkanCounter counter(m_device);
+    int reads = 0;
+    counter.ticks = [&](std::span<uint64_t>) { ++reads; };
+    const auto declare = [&] {
+        begin();
+        const ImageId a = image("a");
+        m_graph.pass("fill", m_kit.fill).write(a).constants(Push{1.0f, 0}).dispatch(16, 16);
+        m_graph.output(a);
+    };
+    for (uint32_t frame = 0; frame < 2 * m_device.framesInFlight() + 1; ++frame) {
+        declare();
+        VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+        poolInfo.queueFamilyIndex = m_device.queueFamily();
+        VkCommandPool pool = VK_NULL_HANDLE;
+        ASSERT_EQ(vk.CreateCommandPool(m_device.handle(), &poolInfo, m_device.allocator(), &pool), VK_SUCCESS);
+        const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+        VkCommandBuffer cmd = VK_NULL_HANDLE;
+        ASSERT_EQ(vk.AllocateCommandBuffers(m_device.handle(), &allocate, &cmd), VK_SUCCESS);
+        const VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        ASSERT_EQ(vk.BeginCommandBuffer(cmd, &info), VK_SUCCESS);
+        EXPECT_EQ(m_graph.execute(cmd), Status::ok);
+        ASSERT_EQ(vk.EndCommandBuffer(cmd), VK_SUCCESS);
+        vk.DestroyCommandPool(m_device.handle(), pool, m_device.allocator());  // dropped
+    }
+    EXPECT_EQ(reads, 0);
+    for (uint32_t frame = 0; frame < m_device.framesInFlight() + 1; ++frame) {
+        declare();
+        ASSERT_EQ(submit(), Status::ok);
+    }
+    EXPECT_GT(reads, 0);
+}
+
 TEST_F(GraphTest, poolForgetsWhatIsNoLongerUsed) {
     begin();
     const ImageId a = image("a", 512);
