@@ -20,6 +20,8 @@ using app::Complaint;
 
 namespace {
 
+constexpr const char* kGallery = "gallery.html";  // the page's name unless one is given; inside --out where that is given
+
 ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::string& channel) {
     ReferenceChoice choice;
     choice.channel = channel;
@@ -160,7 +162,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json, for others");
     auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (gallery.html, inside --out when that is given)")
                         ->expected(0, 1)
-                        ->default_str("gallery.html");
+                        ->default_str(kGallery);
     auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's error is worse than this file says");
     auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's cells when methods are named)");
     gallery->excludes(checkOption)->excludes(renewOption);
@@ -179,7 +181,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     if (*gallery) {
         options.job = Job::gallery;
-        options.page = page.empty() ? options.out / "gallery.html" : std::filesystem::path(page);
+        options.page = page == kGallery ? options.out / page : std::filesystem::path(page);
         if (cli.count("--method") == 0) judged.methods = {"all"};
         if (falloffTexts.empty()) falloffTexts = {"quadratic:2", "exponential:1"};
         if (references.empty()) references = {"world", "screen"};
