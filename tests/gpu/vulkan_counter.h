@@ -99,6 +99,7 @@ public:
     }
     // Writes the ticks that timestamps read as, in place of the device's.
     std::function<void(std::span<uint64_t>)> ticks;
+    uint32_t queryReads = 0;  // calls of vkGetQueryPoolResults, whatever they return
 
 private:
     static inline gpu::Api s_real;
@@ -213,6 +214,7 @@ private:
     static VKAPI_ATTR VkResult VKAPI_CALL GetQueryPoolResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count, size_t bytes,
                                                               void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
         const VkResult result = s_real.GetQueryPoolResults(device, pool, first, count, bytes, data, stride, flags);
+        ++s_current->queryReads;
         if (result == VK_SUCCESS && s_current->ticks) s_current->ticks({static_cast<uint64_t*>(data), count});
         return result;
     }
