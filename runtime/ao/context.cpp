@@ -279,7 +279,7 @@ Status choose(Context* context, const char* id, const MethodSettings& settings) 
         return Status::invalid;
     }
     const uint64_t before = context->device->memoryUse();
-    if (!context->library->prepare(*info)) return statusOf(context->device->failure());
+    if (!context->library->prepare(values)) return statusOf(context->device->failure());
     context->methodBytes += context->device->memoryUse() - before;
     context->values = std::move(values);
     context->falloff = settings.falloff;

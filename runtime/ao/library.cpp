@@ -22,8 +22,7 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 }  // namespace
 
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
-    m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok && OffScreenPass::create(device, shaders, m_offScreen) == Status::ok &&
-              Temporal::create(device, shaders, m_temporal) == Status::ok;
+    m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
 }
 
 Library::~Library() = default;
@@ -36,6 +35,15 @@ bool Library::prepare(const MethodInfo& info) {
         return m_methods[i] != nullptr;
     }
     return false;
+}
+
+bool Library::prepare(const Values& values) {
+    if (!prepare(values.info())) return false;
+    if (m_offScreen || !values.has("offscreen") || OffScreen(values.count("offscreen")) == OffScreen::off) return true;
+    auto made = std::make_unique<OffScreenPass>();
+    if (OffScreenPass::create(m_device, m_shaders, *made) != Status::ok) return false;
+    m_offScreen = std::move(made);
+    return true;
 }
 
 bool Library::prepareAll() {
@@ -57,7 +65,7 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         m_device.log(gpu::Severity::error, std::string("obscurance: ") + reason);
         return {};
     }
-    if (!prepare(values.info())) return {};
+    if (!prepare(values)) return {};
     view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
     if (m_last != &values.info() && !graph.rehearsal()) {
         reset();
@@ -79,8 +87,8 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         if (registry()[i].info != &values.info()) continue;
         visibility = m_methods[i]->add(graph, inputs, values);
         const bool tracesItself = registry()[i].needs && (registry()[i].needs(values) & kVolume);
-        if (visibility && values.has("offscreen") && !tracesItself)
-            visibility = m_offScreen.add(graph, inputs, visibility, m_methods[i]->blocking(inputs, values),
+        if (visibility && m_offScreen && values.has("offscreen") && !tracesItself)
+            visibility = m_offScreen->add(graph, inputs, visibility, m_methods[i]->blocking(inputs, values),
                                          {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
     }
     if (!visibility || !values.info().needs) return visibility;

@@ -20,6 +20,7 @@ public:
     bool ready() const { return m_ready; }  // false: a pipeline that all methods need could not be made; logged
     // Makes the pipelines of one method, or of all (so that switching never hitches). False if any failed; logged.
     bool prepare(const MethodInfo& info);
+    bool prepare(const Values& values);  // and, when these ask for it, of the off-screen pass, which take a driver as long as all others
     bool prepareAll();
 
     // Adds prepare and method passes; returns visibility, R16F, visible size; none, logged, when the frame makes no sense or
@@ -32,7 +33,7 @@ private:
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
     Prepare m_prepare;
-    OffScreenPass m_offScreen;
+    std::unique_ptr<OffScreenPass> m_offScreen;          // null until values have asked for it
     Temporal m_temporal;
     std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
     const MethodInfo* m_last = nullptr;

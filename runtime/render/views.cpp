@@ -59,8 +59,7 @@ gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp", {}, out.m_split);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/difference.comp", {}, out.m_difference);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/samples.comp", {}, out.m_samples);
-    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view.comp", {}, out.m_voxels[0]);
-    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "voxel/view_nanovdb.comp", {}, out.m_voxels[1]);
+    out.m_shaders = &shaders;
     return status;
 }
 
@@ -143,8 +142,13 @@ graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao
         const int axis = constants.axis;
         constants.layer = volume.cellFromEye[12 + axis] + (slice->at ? (*slice->at - eye[axis]) / block.anchor.w : 0.0f);
     }
+    // Not at the start: a driver takes longer for a tree's shader than for all others, and few look at it.
+    const bool tree = volume.structure != ao::VolumeStructure::dense;
+    gpu::Program& program = m_voxels[tree];
+    const char* shader = tree ? "voxel/view_nanovdb.comp" : "voxel/view.comp";
+    if (!program && gpu::Program::compute(graph.device(), *m_shaders, shader, {}, program) != gpu::Status::ok) return {};
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
-    graph.pass("voxels.view", m_voxels[size_t(volume.structure)]).read(graph.upload("view", frame)).read(graph.upload("volume", block)).read(bits)
+    graph.pass("voxels.view", program).read(graph.upload("view", frame)).read(graph.upload("volume", block)).read(bits)
         .write(picture).constants(constants).dispatch(frame.visible.x, frame.visible.y);
     return picture;
 }

@@ -31,7 +31,9 @@ public:
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
-    gpu::Program m_float, m_uint, m_split, m_difference, m_samples, m_voxels[2];  // the last by the volume's structure
+    gpu::Program m_float, m_uint, m_split, m_difference, m_samples;
+    gpu::Program m_voxels[2];  // by the volume's structure; each made when it is first shown
+    const gpu::ShaderLibrary* m_shaders = nullptr;
 };
 
 }  // namespace obscura::render

@@ -1,5 +1,6 @@
 // What comes through the host's door, and what does not.
 #include "ao/door.h"
+#include "gpu/vulkan_counter.h"
 
 namespace obscura::ao {
 namespace {
@@ -108,6 +109,29 @@ TEST_F(DoorTest, offScreenOccludersComeFromTheVolume) {
     EXPECT_TRUE(said("brings no volume"));
     EXPECT_EQ(pixels(output).size(), alone.size());
     m_device.waitIdle();
+}
+
+// Those of the off-screen pass only once the settings ask for it, for either structure of a volume.
+TEST_F(DoorTest, pipelinesAreMadeWithTheMethodNotInAFrame) {
+    test::VulkanCounter counter(m_device);
+    const auto made = [&] { return counter.created["CreateComputePipelines"]; };
+    DeviceDesc d = desc();
+    d.getInstanceProcAddr = &test::VulkanCounter::instanceProc;
+    Context* context = nullptr;
+    ASSERT_EQ(create(d, &context), Status::ok);
+    const Setting hidden{"offscreen", 2.0f};
+    MethodSettings settings;
+    for (const List<Setting>& list : {List<Setting>{}, List<Setting>{&hidden, 1}}) {
+        settings.settings = list;
+        const uint64_t before = made();
+        ASSERT_EQ(setMethod(context, "hbao", settings), Status::ok);
+        EXPECT_EQ(made() > before, list.size() > 0);
+        const uint64_t after = made();
+        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(record(context, cmd, frame()).status, Status::ok); }), gpu::Status::ok);
+        EXPECT_EQ(made(), after);
+    }
+    m_device.waitIdle();
+    destroy(context);
 }
 
 TEST_F(DoorTest, aResizeGivesThePictureOfTheNewSize) {
