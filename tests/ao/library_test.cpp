@@ -7,24 +7,29 @@ namespace {
 class LibraryTest : public test::GpuTest {
 protected:
     gpu::Device& m_device = test::device();
-    gpu::ShaderLibrary m_shaders;
     graph::Graph m_graph{m_device};
-    std::unique_ptr<Library> m_library;
+    static inline gpu::ShaderLibrary s_shaders;
+    static inline std::unique_ptr<Library> s_library;  // all tests': every method's pipelines take longer to make than most tests to run
     uint64_t m_frame = 0;
 
+    static void SetUpTestSuite() { s_shaders.add(shaders()); }
+    static void TearDownTestSuite() {
+        if (s_library) test::device().waitIdle();
+        s_library.reset();
+    }
     void SetUp() override {
         test::GpuTest::SetUp();
-        m_shaders.add(shaders());
-        m_library = std::make_unique<Library>(m_device, m_shaders);
-    }
-    void TearDown() override {
-        m_library.reset();
-        test::GpuTest::TearDown();
+        if (!s_library) s_library = std::make_unique<Library>(m_device, s_shaders);
+        s_library->reset();
     }
 
     // Visibility of a room, row by row; empty when the library refused.
     std::vector<float> run(const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true, bool withMotion = false,
                            bool looked = true) {
+        return run(*s_library, room, values, falloff, withNormals, withMotion, looked);
+    }
+    std::vector<float> run(Library& library, const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true,
+                           bool withMotion = false, bool looked = true) {
         const gpu::Image depth = room.image(m_device, false), normals = room.image(m_device, true);
         Falloff rho;
         EXPECT_TRUE(parseFalloff(falloff, rho));
@@ -49,7 +54,7 @@ protected:
         }
         Frame frame = room.frame();
         frame.index = m_frame++;
-        const graph::ImageId visibility = m_library->add(m_graph, frame, sources, rho, values);
+        const graph::ImageId visibility = library.add(m_graph, frame, sources, rho, values);
         if (!visibility) return {};
         if (!looked) {  // nobody reads what the method writes
             EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
@@ -117,7 +122,7 @@ TEST_F(LibraryTest, everyMethodCanGatherOverFrames) {
         on.set("temporal_clip", 0.0f);
         const std::vector<float> single = run(room, off);
         EXPECT_EQ(run(room, on), single) << info->id << " without motion";
-        m_library->reset();
+        s_library->reset();
         std::vector<float> gathered;
         for (int i = 0; i < 24; ++i) gathered = run(room, on, "quadratic:2", true, true);
         EXPECT_NEAR(mean(gathered), mean(single), 0.01) << info->id;
@@ -127,9 +132,9 @@ TEST_F(LibraryTest, everyMethodCanGatherOverFrames) {
         EXPECT_LT(change / double(next.size()), 0.004) << info->id;
     }
     const Values hbao = [] { Values v(*findMethod("hbao")); v.set("temporal", 0.9f); return v; }();
-    m_library->reset();
+    s_library->reset();
     const std::vector<float> first = run(room, hbao, "quadratic:2", true, true);
-    m_library->reset();
+    s_library->reset();
     EXPECT_NE(run(room, hbao, "quadratic:2", true, true), first) << "samples do not rotate";
 }
 
@@ -140,9 +145,9 @@ TEST_F(LibraryTest, framesThatNobodyLooksAtCostNoLaterOneItsPicture) {
     room.build();
     for (const MethodInfo* info : methods()) {
         const std::vector<float> expected = run(room, Values(*info));
-        m_library = std::make_unique<Library>(m_device, m_shaders);
-        run(room, Values(*info), "quadratic:2", true, false, false);
-        EXPECT_EQ(run(room, Values(*info)), expected) << info->id;
+        Library fresh(m_device, s_shaders);
+        run(fresh, room, Values(*info), "quadratic:2", true, false, false);
+        EXPECT_EQ(run(fresh, room, Values(*info)), expected) << info->id;
     }
 }
 

@@ -203,19 +203,18 @@ TEST_F(OffScreenTest, aPointOfTheFloorKeepsItsObscuranceWhileTheCameraYawsPastTh
     const double truth = box.truth(p, rho);
     for (const ao::MethodInfo* info : offered()) {
         m_method = info->id;
-        Range whole[2], outside;
-        for (int step = 0; step <= 24; ++step) {
+        Range whole[2];
+        // Methods that see the box about right lose it without voxels; with them no more changes than their own noise.
+        const bool sees = std::string(info->id) == "hbao" || std::string(info->id) == "horizon_split" || std::string(info->id) == "far_field";
+        for (int step = sees ? 0 : 24; step <= 24; ++step) {
             box.look((31.0 - 60.0 * (1.0 - step / 24.0)) * TallBox::kPi / 180);
             for (const float what : {kOff, kHidden}) whole[what == kHidden].add(obscurance(box, p, what));
         }
-        outside.add(obscurance(box, p, kHidden) - obscurance(box, p, kOff));
-        printf("%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; voxels add %.4f when all of it is outside\n", info->id, truth, whole[0].changes(),
-               whole[1].changes(), outside.most);
-        EXPECT_NEAR(outside.most, truth, 0.02) << info->id;
-        // Methods that see the box about right lose it without voxels; with them no more changes than their own noise.
-        if (std::string(info->id) == "hbao" || std::string(info->id) == "horizon_split" || std::string(info->id) == "far_field") {
-            EXPECT_LT(whole[1].changes(), whole[0].changes() / 4) << info->id;
-        }
+        const double outside = obscurance(box, p, kHidden) - obscurance(box, p, kOff);
+        printf("%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; voxels add %.4f when all of it is outside\n",
+               info->id, truth, whole[0].changes(), whole[1].changes(), outside);
+        EXPECT_NEAR(outside, truth, 0.02) << info->id;
+        if (sees) { EXPECT_LT(whole[1].changes(), whole[0].changes() / 4) << info->id; }
     }
 }
 
