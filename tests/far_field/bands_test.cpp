@@ -49,12 +49,15 @@ double obscuranceOfRays(const Room& room, const Box& box, int x, int y, double l
         for (int back = 0; back < 8 && enters[i] >= 0.0 && inside(t -= 0.05); ++back) enters[i] = t;
     }
     double blocked = 0.0;
+    const double passing = box.halfLength + box.halfWidth + distance * kTurn / kAngles;  // px from the box's middle: such lines miss it
     for (int i = 0; i < kAround; ++i) {
         const double azimuth = kTurn * (i + 0.5) / kAround, c = std::cos(azimuth), s = std::sin(azimuth);
         if (c * aside[0] + s * aside[1] < 0.0) continue;
         for (int k = 0; k < kUp; ++k) {
             const double square = (k + 0.5) / kUp, sine = std::sqrt(square), up = std::sqrt(1.0 - square);
             const double g[2] = {focal * (sine * c + p[0] / depth * up), focal * (sine * s + p[1] / depth * up)};
+            const double cross = g[1] * aside[0] - g[0] * aside[1];
+            if (cross * cross > passing * passing * (g[0] * g[0] + g[1] * g[1])) continue;
             const double angle = std::atan2(g[1], g[0]) / kTurn, t = enters[int((angle < 0.0 ? angle + 1.0 : angle) * kAngles) % kAngles];
             const double hit = t * depth / (std::hypot(g[0], g[1]) + t * up);  // metres along the ray
             if (t >= 0.0 && depth - hit * up > kTop) blocked += std::exp(-hit / length);
