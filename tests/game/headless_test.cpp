@@ -116,7 +116,7 @@ TEST_F(Headless, OddUnitsAreFitted) {
 }
 
 TEST_F(Headless, SwitchTestReports) {
-    const Ran ran = run({"--headless", "--scene", m_scene, "--size", "96x54", "--switch-test", "3"});
+    const Ran ran = run({"--headless", "--scene", m_scene, "--size", "96x54", "--switch-test", "1"});
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_NE(ran.out.find("worst frame at a switch"), std::string::npos) << ran.out;
 }
