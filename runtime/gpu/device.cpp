@@ -199,6 +199,7 @@ VkSampler Device::sampler(const VkSamplerCreateInfo& info) {
                                        info.unnormalizedCoordinates};
     for (const CachedSampler& cached : m_samplers)
         if (cached.key == key) return cached.sampler;
+    m_samplers.reserve(m_samplers.size() + 1);  // so that no sampler is lost for want of memory
     VkSampler made = VK_NULL_HANDLE;
     if (VkResult result = m_vk.CreateSampler(m_device, &info, m_allocator, &made)) {
         log(Severity::error, fmt::format("sampler: {}", resultName(result)));

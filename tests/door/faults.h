@@ -2,6 +2,7 @@
 // would have given is filled with rubbish, as drivers may.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -31,8 +32,9 @@ struct Faults {
     // Queries of what is done already, resets and names: they cannot fail, or it does not matter.
     static bool due(const char* name) {
         if (countdown < 0) return false;
-        if (only.empty() ? !std::strcmp(name, "GetQueryPoolResults") || !std::strcmp(name, "GetEventStatus") || !std::strcmp(name, "ResetDescriptorPool") || !std::strcmp(name, "SetDebugUtilsObjectNameEXT") : only != name)
-            return false;
+        static constexpr const char* kHarmless[] = {"GetQueryPoolResults", "GetEventStatus", "ResetEvent", "ResetDescriptorPool", "SetDebugUtilsObjectNameEXT"};
+        const bool harmless = std::any_of(std::begin(kHarmless), std::end(kHarmless), [&](const char* one) { return !std::strcmp(name, one); });
+        if (only.empty() ? harmless : only != name) return false;
         if (countdown-- > 0) return false;
         failed = name;
         return true;

@@ -55,6 +55,7 @@ protected:
         GpuTest::SetUp();
         test::KeptPipelines::attach(m_device);
         ownPipelines(false);
+        m_host.ownCalls = &Faults::inside;
         m_desc.getInstanceProcAddr = &Faults::instanceProc;
         m_desc.log = [](void* host, Severity, const char* line) {
             ++Faults::inside;  // what a host does in its log is not the library's

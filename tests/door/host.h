@@ -98,8 +98,11 @@ public:
     }
 
     bool submits = true;  // false: nothing runs, so nothing need be compiled; for a context's whole life
+    int* ownCalls = nullptr;  // counted up while record() makes calls of the host's own: drivers and layers allocate in those, too
     // Submitted and waited for, unless record() failed: then the command buffer is thrown away.
     ao::Output record(const ao::Frame& frame) {
+        int none = 0, &own = ownCalls ? *ownCalls : none;
+        ++own;
         const gpu::Api& vk = m_device.vk();
         if (!m_pool) {
             const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, m_device.queueFamily()};
@@ -110,7 +113,9 @@ public:
         const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
         EXPECT_EQ(vk.ResetCommandPool(m_device.handle(), m_pool, 0), VK_SUCCESS);
         EXPECT_EQ(vk.BeginCommandBuffer(m_cmd, &begin), VK_SUCCESS);
+        --own;
         const ao::Output output = ao::record(context, m_cmd, frame);
+        ++own;
         EXPECT_EQ(vk.EndCommandBuffer(m_cmd), VK_SUCCESS);
         if (submits && output.status == ao::Status::ok) {
             const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, m_cmd, 0};
@@ -120,6 +125,7 @@ public:
             EXPECT_EQ(vk.QueueSubmit2(m_device.queue(), 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
             EXPECT_EQ(vk.QueueWaitIdle(m_device.queue()), VK_SUCCESS);
         }
+        --own;
         return output;
     }
     std::vector<float> pixels(const ao::Output& output, VkExtent2D size) {
