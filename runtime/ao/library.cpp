@@ -46,12 +46,6 @@ bool Library::prepare(const Values& values) {
     return true;
 }
 
-bool Library::prepareAll() {
-    bool all = true;
-    for (const MethodEntry& entry : registry()) all &= prepare(*entry.info);
-    return all;
-}
-
 graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values,
                             Inputs* inputsOut) {
     shared::View view;

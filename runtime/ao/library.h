@@ -18,10 +18,9 @@ public:
     ~Library();
 
     bool ready() const { return m_ready; }  // false: a pipeline that all methods need could not be made; logged
-    // Makes the pipelines of one method, or of all (so that switching never hitches). False if any failed; logged.
+    // Makes a method's pipelines; of values, also the off-screen pass's when these ask for it. False if any failed; logged.
     bool prepare(const MethodInfo& info);
-    bool prepare(const Values& values);  // and, when these ask for it, of the off-screen pass, which take a driver as long as all others
-    bool prepareAll();
+    bool prepare(const Values& values);
 
     // Adds prepare and method passes; returns visibility, R16F, visible size; none, logged, when the frame makes no sense or
     // a pipeline cannot be made. A graph's rehearsal leaves no trace here. Values name the method. `inputs`, when given, receives what prepare made (linear depth).

@@ -223,7 +223,7 @@ void Graph::timestamp(VkCommandBuffer cmd) {
 
 void Graph::collectTimings(Frame& frame) {
     const uint32_t count = std::exchange(frame.queryCount, 0);
-    if (count < 2) return;
+    if (count == 0) return;
     const gpu::Api& vk = m_device.vk();
     // A host may record a frame and never submit it. Its queries were not reset then, and reading them is an error.
     const VkResult executed = vk.GetEventStatus(m_device.handle(), frame.executed);
@@ -233,8 +233,10 @@ void Graph::collectTimings(Frame& frame) {
         m_device.release(VK_OBJECT_TYPE_EVENT, frame.executed);
         frame.executed = VK_NULL_HANDLE;
     }
+    if (count < 2) return;  // a frame without a pass
     std::vector<uint64_t> ticks(count);
-    const VkResult result = vk.GetQueryPoolResults(m_device.handle(), frame.queries, 0, count, ticks.size() * 8, ticks.data(), 8, VK_QUERY_RESULT_64_BIT);
+    const VkResult result =
+        vk.GetQueryPoolResults(m_device.handle(), frame.queries, 0, count, ticks.size() * 8, ticks.data(), 8, VK_QUERY_RESULT_64_BIT);
     m_lost |= result == VK_ERROR_DEVICE_LOST;
     if (result != VK_SUCCESS) return;
     const gpu::Caps& caps = m_device.caps();
@@ -313,7 +315,8 @@ gpu::Status Graph::execute(VkCommandBuffer cmd) {
     }
     barriers(cmd, m_plan.closing);
     if (timing) {
-        VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+        const VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0,
+                                   VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
         VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
         info.memoryBarrierCount = 1;
         info.pMemoryBarriers = &all;

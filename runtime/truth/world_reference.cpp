@@ -91,7 +91,8 @@ constexpr float kEscaped = std::numeric_limits<float>::infinity();
 
 class Caster {
 public:
-    Caster(RTCScene scene, float length, bool anyHit, bool packets) : m_queries(scene), m_length(length), m_anyHit(anyHit), m_packets(packets) {}
+    Caster(RTCScene scene, float length, bool anyHit, bool packets)
+        : m_queries(scene), m_length(length), m_anyHit(anyHit), m_packets(packets) {}
 
     void cast(const glm::vec3& origin, const std::array<glm::vec3, kBatch>& directions, Distances& distances) {
         if (!m_packets)

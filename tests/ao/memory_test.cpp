@@ -2,6 +2,7 @@
 #include <map>
 
 #include "ao/door.h"
+#include "gpu/record.h"
 
 namespace obscura::ao {
 namespace {
@@ -72,18 +73,8 @@ protected:
     }
     // Without a run: memory is taken when a frame is recorded.
     Output recorded(const Frame& f) {
-        const gpu::Api& vk = m_device.vk();
-        const VkCommandPoolCreateInfo info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, m_device.queueFamily()};
-        VkCommandPool pool = VK_NULL_HANDLE;
-        EXPECT_EQ(vk.CreateCommandPool(m_device.handle(), &info, nullptr, &pool), VK_SUCCESS);
-        const VkCommandBufferAllocateInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-        VkCommandBuffer cmd = VK_NULL_HANDLE;
-        EXPECT_EQ(vk.AllocateCommandBuffers(m_device.handle(), &one, &cmd), VK_SUCCESS);
-        const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-        EXPECT_EQ(vk.BeginCommandBuffer(cmd, &begin), VK_SUCCESS);
-        const Output output = record(m_context, cmd, f);
-        EXPECT_EQ(vk.EndCommandBuffer(cmd), VK_SUCCESS);
-        vk.DestroyCommandPool(m_device.handle(), pool, nullptr);
+        Output output;
+        test::recordAndDrop(m_device, [&](VkCommandBuffer cmd) { output = record(m_context, cmd, f); });
         return output;
     }
 };
