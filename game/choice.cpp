@@ -41,7 +41,8 @@ const ao::Preset* presetOf(const ao::Values& values) {
 }
 
 void resolve(ao::Values& values, const ao::Preset& wanted) {
-    // As a preset of the method has it: of that which differs in nothing else, or the first.
+    // Sets the parameters of all resolve presets back to those of the method's preset: of the preset that equals `values` in all other
+    // parameters, or of the first one.
     const auto reset = [&](ao::Values to, const ao::Preset& preset) {
         ao::Values own(values.info());
         own.apply(preset);
@@ -108,8 +109,8 @@ Choice::Choice() {
         if (info->presets.size() > 0) values.apply(info->presets[0]);
         m_values.push_back(std::move(values));
     }
-    if (m_values.empty()) throw Complaint("this build holds no obscurance method", app::kFailed);
-    // The first entry is the picture without any; whoever starts the game wants to see one at work.
+    if (m_values.empty()) throw Complaint("this build contains no obscurance method", app::kFailed);
+    // The first entry is the method `none`; the game starts with kFirstMethod.
     for (m_current = m_values.size() - 1; m_current > 0 && std::string_view(info().id) != kFirstMethod; --m_current) {}
 }
 
@@ -170,7 +171,7 @@ void Choice::assign(const std::string& assignment) {
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
             std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
-            throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is no number; {} goes from {:g} to {:g}", assignment, text, name,
+            throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is not a number; {} goes from {:g} to {:g}", assignment, text, name,
                                                         parameter.minimum, parameter.maximum)
                                           : fmt::format("--set {}: {}", assignment, app::choices(text, words)));
         }
@@ -195,7 +196,7 @@ void Choice::read(const std::string& text) {
             at = next;
         }
     } catch (const Complaint& complaint) {
-        const std::string what = complaint.what();  // names the option that would have said the same
+        const std::string what = complaint.what();  // begins with the option that sets the same
         throw Complaint(fmt::format("--compare {}: {}", text, what.substr(what.find(": ") + 2)));
     }
 }

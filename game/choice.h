@@ -1,4 +1,4 @@
-// What is chosen among the library's methods: one set of values for each, which of them runs, and how far occluders reach.
+// The selected method, the parameter values of every method, and the falloff.
 #pragma once
 
 #include <string>
@@ -19,12 +19,12 @@ public:
     void select(size_t index) { m_current = index; }
     void selectNext(int step);
 
-    // From text, as on a command line; throw app::Complaint that lists what there is.
+    // From text, as on a command line. They throw app::Complaint, which lists the known names.
     void select(const std::string& id);
-    void applyPreset(const std::string& id);        // to the selected method, from its initial values on
-    void applyResolve(const std::string& id);       // likewise, over what is there
+    void applyPreset(const std::string& id);        // to the selected method; its other parameters return to their initial values
+    void applyResolve(const std::string& id);       // to the selected method, over its current values
     void assign(const std::string& assignment);     // "METHOD.PARAMETER=VALUE", or "PARAMETER=VALUE" for the selected one
-    void assignToAll(const std::string& parameter, const std::string& value);  // and to every other method that has it
+    void assignToAll(const std::string& parameter, const std::string& value);  // and to all other methods that have it
     void setFalloff(const std::string& text);
     void read(const std::string& text);             // "METHOD[:PRESET][,PARAMETER=VALUE...]", as --compare takes it
 
@@ -36,12 +36,13 @@ private:
 };
 
 std::vector<std::string> methodIds();
-// Which preset the values are at this moment; null when they are nobody's.
+// The method's preset that equals the values; null if none does.
 const ao::Preset* presetOf(const ao::Values& values);
-// Which of ao::resolvePresets() they are at, and how they get there: what such presets set goes back to what the method's own has first.
+// The one of ao::resolvePresets() that equals the values; null if none does. resolve() applies one: parameters that any of them sets first
+// return to the values of the method's preset.
 const ao::Preset* resolveOf(const ao::Values& values);
 void resolve(ao::Values& values, const ao::Preset& preset);
-std::string label(const ao::Values& values);  // "hbao", "hbao 8x4", "hbao steps=4 temporal=0.9": the first preset goes without saying
+std::string label(const ao::Values& values);  // "hbao", "hbao 8x4", "hbao steps=4 temporal=0.9": the first preset's name is left out
 std::string falloffText(const ao::Falloff& falloff);  // as setFalloff reads it
 // The options that choose these values: --method ID --preset NAME or --set ..., or the same as one --compare.
 std::string asOptions(const ao::Values& values, bool compare);

@@ -1,4 +1,4 @@
-// Where content lies: the manifest of named scenes and the files it names.
+// Content lookup: the manifest of named scenes and the files that it names.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace obscura::game {
 
-// Folders to look in, best first: the source tree's content/ (or, installed, share/obscura beside the program's folder),
+// Folders that are searched, in this order: the source tree's content/ (or, installed, share/obscura beside the program's folder),
 // $OBSCURA_CONTENT, and shared/content beside the source tree.
 std::vector<std::filesystem::path> contentFolders();
 std::optional<std::filesystem::path> findContent(const std::string& relative);
-// Any of these: the first folder that has one wins.
+// The first of these files in the first folder that has one.
 std::optional<std::filesystem::path> findContent(const std::vector<std::string>& relatives);
 
 // Toys of toasters.glb set down in a scene, without their tray.
 struct ToyGroup {
-    glm::vec3 at{0.0f};   // where the middle of their tray would stand
+    glm::vec3 at{0.0f};   // centre of their tray, world
     float turn = 0.0f;    // radians about y
     float scale = 1.0f;
     float time = 0.0f;    // seconds ahead of the world
@@ -28,13 +28,13 @@ struct ToyGroup {
 struct SceneInfo {
     std::string name, title;
     std::vector<std::string> files;  // any of these, relative to a content folder
-    std::string howToGet;            // one line, when none is there
+    std::string howToGet;            // one line, shown if no file is found
     std::string flythrough;          // file relative to a content folder
     float floor = 0.0f;              // height that toys and walkers stand on, metres
     glm::vec3 eye{0.0f}, target{0.0f};
     glm::vec2 walkMin{-1e6f}, walkMax{1e6f};  // x and z that a walker stays within
     float exposure = 1.0f;
-    float toyScale = 1.0f;           // of dropped ones
+    float toyScale = 1.0f;           // of toys that the player drops
     std::vector<ToyGroup> toys;
 };
 

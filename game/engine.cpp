@@ -19,9 +19,9 @@ using app::Complaint;
 
 namespace {
 
-// Software rasterizers compile variants for sides that are powers of two and for sides that are not; the tiny pictures of
-// the warm-up must be of the same kind as those to come.
-uint32_t tinySide(uint32_t side) {
+// Side of a warm-up picture, px. Software rasterizers compile one variant for sides that are powers of two and one for all
+// others, so a warm-up side is a power of two if and only if the window's is.
+uint32_t warmUpSide(uint32_t side) {
     uint32_t tiny = std::max(side / 8, 24u);
     while (std::has_single_bit(tiny) != std::has_single_bit(side)) ++tiny;
     return tiny;
@@ -53,7 +53,7 @@ Engine::Engine(const Options& options, app::Window* window) : m_verbose(options.
     wanted.log = [this](gpu::Severity severity, const char* message) {
         const std::string line = app::oneLine(message);
         if (severity != gpu::Severity::info) m_messages.push_back(line);
-        // Warnings would break the promise of one line a failure; the last of them is part of that line.
+        // Not printed by default: a failure is one line, which ends with the last of these messages.
         if (m_verbose || line.starts_with("validation")) std::fprintf(stderr, "obscura: %s\n", line.c_str());
     };
     std::string error;
@@ -96,7 +96,7 @@ void Engine::expect(gpu::Status status, const char* doing) const {
 void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& values, const ao::Values* compare, render::View view) {
     expect(m_frames->begin(*m_graph), "warming up");
     render::FrameOptions frame;
-    frame.visible = {tinySide(options.size.width), tinySide(options.size.height)};
+    frame.visible = {warmUpSide(options.size.width), warmUpSide(options.size.height)};
     frame.guard = options.guard;
     frame.camera = stage.startCamera();
     frame.method = &values;
@@ -126,7 +126,7 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
         app::Progress progress("making pipelines", methods.size());
         for (size_t i = 0; i < methods.size(); ++i) {
             progress.at(i, methods[i]->id);
-            // A method that cannot run here is left out by the library and says why; only the chosen one must work.
+            // The library skips a method that this device cannot run and logs why; only the selected one must succeed.
             if (!m_renderer->library().prepare(*methods[i]) && methods[i] == &options.choice.info())
                 expect(gpu::Status::shaderError, "making the method's pipelines");
         }

@@ -1,4 +1,4 @@
-// Device, shaders, renderer and graph, started together and ended in the right order.
+// Owns device, shaders, renderer, graph, frames in flight and capture; destroys them in the right order.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ public:
     Engine(const Options& options, app::Window* window);
     ~Engine();
 
-    // Uploads the scene, makes the pipelines of one method (or of all) and runs each once at a tiny size: some drivers
-    // compile at the first dispatch, and nobody should see that happen.
+    // Uploads the scene, makes the pipelines of one method (or of all) and runs each once at a small size: some drivers
+    // compile at the first dispatch, which would be a hitch in the game.
     void prepare(const Options& options, Stage& stage, bool allMethods);
 
     gpu::Device& device() { return *m_device; }
@@ -30,12 +30,12 @@ public:
     app::Frames& frames() { return *m_frames; }
     app::Capture& capture() { return *m_capture; }
     gpu::ShaderLibrary& shaders() { return m_shaders; }
-    bool reloads() const { return m_reloads; }  // edited shaders are watched
+    bool reloads() const { return m_reloads; }  // edited shaders are reloaded
 
-    // Throws app::Complaint for anything but ok, with the last thing the log said.
+    // Throws app::Complaint for anything but ok, with the last log message.
     void expect(gpu::Status status, const char* doing) const;
     const std::vector<std::string>& messages() const { return m_messages; }  // warnings and errors so far
-    // Seconds that starting took, in parts.
+    // Start-up times, seconds.
     struct Started {
         double device = 0.0, scene = 0.0, pipelines = 0.0, warmUp = 0.0;
         bool cacheFound = false;  // a pipeline cache was on disk

@@ -1,4 +1,4 @@
-// Frames without a window: pictures, times and a summary.
+// Rendering without a window: pictures, times and a summary.
 #include <algorithm>
 #include <cstdio>
 
@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr uint32_t kSettling = 3;        // first frames, left out of the times
+constexpr uint32_t kSettling = 3;        // frames at the start that are not timed
 constexpr uint32_t kReportPictures = 4;  // in summary.html
 
-// Spread over the run: its first and last frame and some between.
+// Frames shown in summary.html: the first, the last, and evenly spaced ones between.
 std::vector<uint32_t> reportFrames(uint32_t frames) {
     std::vector<uint32_t> list;
     const uint32_t count = std::min(frames, kReportPictures);
@@ -41,7 +41,7 @@ void expectPass(const Options& options, const graph::Graph& graph) {
 
 }  // namespace
 
-int closingWords(const Options& options, Engine& engine) {
+int reportValidation(const Options& options, Engine& engine) {
     if (options.validation == "off") return 0;
     const uint64_t count = engine.device().validationMessages();
     fmt::print("validation: {} message{}\n", count, count == 1 ? "" : "s");
@@ -49,7 +49,7 @@ int closingWords(const Options& options, Engine& engine) {
 }
 
 int runHeadless(const Options& options) {
-    // Whatever can fail early does, before minutes of work.
+    // Outputs, scene and camera are checked before the slow start-up.
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
     if (!options.out.empty()) app::expectFolder(options.out);
     Stage stage(options.scene, options.bare);
@@ -65,10 +65,10 @@ int runHeadless(const Options& options) {
     if (options.verbose)
         fmt::print(stderr, "obscura: {}: started in {:.2f} s (device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {})\n",
                    engine.device().caps().deviceName, engine.started.total(), engine.started.device, engine.started.scene,
-                   engine.started.pipelines, engine.started.warmUp, engine.started.cacheFound ? "found" : "not there");
+                   engine.started.pipelines, engine.started.warmUp, engine.started.cacheFound ? "found" : "not found");
     if (options.switchTest) {
         switchTest(options, engine, stage);
-        return closingWords(options, engine);
+        return reportValidation(options, engine);
     }
 
     const uint32_t frames = options.frames.value_or(replay ? replayFrames(stage.pathOf(options.camera.file), start) : 1);
@@ -133,7 +133,7 @@ int runHeadless(const Options& options) {
         }
         engine.expect(engine.frames().wait(), "finishing the last frame");
         engine.capture().collect(true);
-        // The last frames' timestamps are read when their slots come round again.
+        // A frame's timestamps are read when its slot among the frames in flight is used again.
         for (uint32_t i = 0; i < engine.device().framesInFlight(); ++i) {
             engine.expect(engine.frames().begin(graph), "finishing");
             if (graph.timings().frame >= firstMeasured) statistics.add(graph.timings());
@@ -151,22 +151,22 @@ int runHeadless(const Options& options) {
     fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, methods, options.size.width, options.size.height, engine.device().caps().deviceName,
                report.table());
     if (measures) fmt::print("{}", summary(measures->all()));
-    return closingWords(options, engine);
+    return reportValidation(options, engine);
 }
 
-int flyInstead(const Options& given, const std::string& why) {
+int runWithoutWindow(const Options& given, const std::string& why) {
     Options options = given;
     options.job = Job::headless;
     options.noPresent = true;
     if (options.camera.kind == CameraChoice::Kind::scene) options.camera.kind = CameraChoice::Kind::flythrough;
     constexpr uint32_t kFrames = 24;
     if (!options.frames && !options.camera.replay) {
-        // As many frames as one looks at, over the whole flythrough.
+        // 24 frames cover the whole flythrough.
         options.frames = kFrames;
         options.step = 0.4f;
     }
     if (options.out.empty()) options.out = "out";
-    fmt::print(stderr, "obscura: {}; flying through without a window instead, pictures and summary go to {}/\n", why, options.out.string());
+    fmt::print(stderr, "obscura: {}; rendering the flythrough without a window, pictures and summary go to {}/\n", why, options.out.string());
     return runHeadless(options);
 }
 

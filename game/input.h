@@ -1,3 +1,4 @@
+// Keyboard input of the windowed game.
 #pragma once
 
 #include "app/window.h"
@@ -5,7 +6,7 @@
 
 namespace obscura::game {
 
-// Turns what was pressed since the last poll into actions.
+// Runs the actions of the keys pressed since the last poll.
 void handleKeys(const app::Window& window, Session& session);
 
 }  // namespace obscura::game

@@ -1,4 +1,4 @@
-// What main() can be asked to do; each returns the exit code and throws app::Complaint or scene::Error.
+// The jobs of main(). Each returns the exit code and throws app::Complaint or scene::Error.
 #pragma once
 
 #include "engine.h"
@@ -8,16 +8,16 @@ namespace obscura::game {
 
 int playWindowed(const Options& options);
 int runHeadless(const Options& options);
-// Without a display or presentation: says why, flies through the scene and leaves pictures and a summary in out/.
-int flyInstead(const Options& options, const std::string& why);
+// Fallback without display or presentation: prints `why`, renders the flythrough headless, writes pictures and summary to out/.
+int runWithoutWindow(const Options& options, const std::string& why);
 int listMethods(bool json);
 int listScenes();
 int listDevices();
 
-// Runs each method for a while, then switches at every frame; prints the worst frame at a switch against the median.
+// Runs each method for a number of frames, then switches methods at every frame; prints the longest frame at a switch and the median.
 void switchTest(const Options& options, Engine& engine, Stage& stage);
 
-// Tells the number of validation messages when validation is on; kInvalidUse when there are any.
-int closingWords(const Options& options, Engine& engine);
+// With validation on, prints the number of validation messages; returns kInvalidUse if there are any, else 0.
+int reportValidation(const Options& options, Engine& engine);
 
 }  // namespace obscura::game

@@ -1,4 +1,4 @@
-// The keys, once: what the game does with them, what F1 shows and what --help prints.
+// The key bindings: one table for the game, for F1 and for --help.
 #pragma once
 
 #include <span>
@@ -22,14 +22,14 @@ struct KeyBinding {
 };
 std::span<const KeyBinding> keyBindings();
 
-// Held keys that move the camera; shown beside the others.
+// Keys that move the camera while held.
 struct HeldKeys {
     const char* name;
     const char* effect;
 };
 std::span<const HeldKeys> heldKeys();
 
-// All of it as text, two columns.
+// Both tables as text, two columns.
 std::string keyPage(bool withTitle);
 
 }  // namespace obscura::game

@@ -1,4 +1,4 @@
-// The registry, the scenes and the devices, printed.
+// --list-methods, --list-scenes and --list-devices.
 #include <algorithm>
 #include <cstdio>
 

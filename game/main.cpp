@@ -1,4 +1,4 @@
-// Reads the command line, does one job, turns every failure into one line and an exit code.
+// Entry point: parses the command line, runs one job, reports a failure as one line and an exit code.
 #include "app/complaint.h"
 #include "jobs.h"
 

@@ -10,9 +10,9 @@ namespace obscura::game {
 
 namespace {
 
-constexpr uint32_t kMostPixels = 256 * 256;
+constexpr uint32_t kMaxPixels = 256 * 256;
 constexpr uint32_t kLargestStep = 31;
-constexpr size_t kKept = 600;
+constexpr size_t kKeptReadings = 600;
 
 bool sameCamera(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY && a.orthoHalfHeight == b.orthoHalfHeight;
@@ -25,62 +25,62 @@ bool sameWorld(const Measures::Frame& a, const Measures::Frame& b) {
 }  // namespace
 
 uint32_t measuredStep(VkExtent2D size) {
-    const auto few = [&](uint32_t step) { return uint64_t(size.width / step) * (size.height / step) <= kMostPixels; };
-    uint32_t least = 0;
+    const auto fits = [&](uint32_t step) { return uint64_t(size.width / step) * (size.height / step) <= kMaxPixels; };
+    uint32_t smallest = 0;
     for (uint32_t step = 1; step <= kLargestStep; step += 2) {
-        if (!few(step)) continue;
+        if (!fits(step)) continue;
         if (size.width % step == 0 && size.height % step == 0) return step;
-        if (!least) least = step;
+        if (!smallest) smallest = step;
     }
-    return least ? least : kLargestStep;
+    return smallest ? smallest : kLargestStep;
 }
 
-// The frame before, as the worker keeps it.
-struct Measures::Past {
-    struct Seen {
+// The previous frame, kept by the worker.
+struct Measures::Previous {
+    struct Decoded {
         truth::CapturedFrame captured;
         std::vector<glm::vec2> motion;
         truth::Mask visible;
         std::vector<truth::Plane> sides;
         std::optional<truth::Traced> reference;
     };
-    static Seen decode(const Frame& frame, const std::vector<uint32_t>& texels);
+    static Decoded decode(const Frame& frame, const std::vector<uint32_t>& texels);
     std::optional<Frame> frame;
-    Seen seen;
-    size_t still = 0;  // frames like the one before them
+    Decoded decoded;
+    size_t still = 0;  // frames in a row with unchanged camera, world and settings
     std::vector<truth::StaticNoise> noise;
 };
 
-// What one frame's texels say.
-Measures::Past::Seen Measures::Past::decode(const Frame& frame, const std::vector<uint32_t>& texels) {
+// Unpacks the texels of one frame.
+Measures::Previous::Decoded Measures::Previous::decode(const Frame& frame, const std::vector<uint32_t>& texels) {
     const glm::uvec2 size(frame.visible.width / frame.step, frame.visible.height / frame.step);
-    Seen seen;
-    seen.captured = truth::emptyFrame(size, {0, 0}, frame.camera.fovY, frame.camera.nearPlane, frame.camera);
+    Decoded decoded;
+    decoded.captured = truth::emptyFrame(size, {0, 0}, frame.camera.fovY, frame.camera.nearPlane, frame.camera);
     if (frame.visible.width % frame.step || frame.visible.height % frame.step) {
-        // The rest of the last blocks is cut off, from the lens of the whole picture: x' = part x + (part - 1) w in clip space.
-        const glm::vec2 whole(float(frame.visible.width), float(frame.visible.height)), part = whole / (glm::vec2(size) * float(frame.step));
+        // Blocks that the picture's edge cuts off are left out, so the projection is cropped: x' = scale x + (scale - 1) w in clip space.
+        const glm::vec2 whole(float(frame.visible.width), float(frame.visible.height)), scale = whole / (glm::vec2(size) * float(frame.step));
         glm::mat4 crop(1.0f);
-        crop[0][0] = part.x, crop[3][0] = part.x - 1.0f;
-        crop[1][1] = part.y, crop[3][1] = part.y - 1.0f;
-        seen.captured.projection = crop * frame.camera.projection(whole, whole);
+        crop[0][0] = scale.x, crop[3][0] = scale.x - 1.0f;
+        crop[1][1] = scale.y, crop[3][1] = scale.y - 1.0f;
+        decoded.captured.projection = crop * frame.camera.projection(whole, whole);
     }
-    seen.sides.assign(frame.sides.size(), truth::Plane(size.x, size.y));
-    seen.motion.resize(seen.captured.depth.size());
-    for (size_t i = 0; i < seen.captured.depth.size(); ++i) {
+    decoded.sides.assign(frame.sides.size(), truth::Plane(size.x, size.y));
+    decoded.motion.resize(decoded.captured.depth.size());
+    for (size_t i = 0; i < decoded.captured.depth.size(); ++i) {
         const uint32_t* texel = &texels[4 * i];
         const glm::vec2 visibility = glm::unpackHalf2x16(texel[0]);
-        for (size_t side = 0; side < seen.sides.size(); ++side) seen.sides[side].values[i] = side == 0 ? visibility.x : visibility.y;
+        for (size_t side = 0; side < decoded.sides.size(); ++side) decoded.sides[side].values[i] = side == 0 ? visibility.x : visibility.y;
         float depth;
         std::memcpy(&depth, &texel[1], sizeof depth);
-        seen.captured.depth[i] = std::min(depth, seen.captured.skyDepth);
-        if (!seen.captured.isSky(i)) seen.captured.normals[i] = truth::unpackNormal(texel[2]);
-        seen.motion[i] = glm::unpackHalf2x16(texel[3]) / float(frame.step);
+        decoded.captured.depth[i] = std::min(depth, decoded.captured.skyDepth);
+        if (!decoded.captured.isSky(i)) decoded.captured.normals[i] = truth::unpackNormal(texel[2]);
+        decoded.motion[i] = glm::unpackHalf2x16(texel[3]) / float(frame.step);
     }
-    seen.visible = seen.captured.visibleMask();
-    return seen;
+    decoded.visible = decoded.captured.visibleMask();
+    return decoded;
 }
 
-Measures::Measures(size_t most) : m_most(most), m_worker([this] { work(); }) {}
+Measures::Measures(size_t maxPending) : m_maxPending(maxPending), m_worker([this] { work(); }) {}
 
 Measures::~Measures() {
     {
@@ -97,7 +97,7 @@ void Measures::add(Frame frame, std::span<const std::byte> texels) {
     std::memcpy(job.texels.data(), texels.data(), texels.size());
     {
         const std::lock_guard lock(m_mutex);
-        if (m_most && m_jobs.size() >= m_most) {
+        if (m_maxPending && m_jobs.size() >= m_maxPending) {
             ++m_leftOut;
             return;
         }
@@ -112,7 +112,7 @@ void Measures::finish() {
 }
 
 void Measures::work() {
-    Past past;
+    Previous previous;
     std::unique_lock lock(m_mutex);
     while (true) {
         m_changed.wait(lock, [this] { return m_end || !m_jobs.empty(); });
@@ -122,64 +122,64 @@ void Measures::work() {
         m_busy = true;
         lock.unlock();
         const auto begun = std::chrono::steady_clock::now();
-        const bool sameSettings = past.frame && past.frame->sides == job.frame.sides && past.frame->step == job.frame.step && !job.frame.cut;
+        const bool sameSettings = previous.frame && previous.frame->sides == job.frame.sides && previous.frame->step == job.frame.step && !job.frame.cut;
         Reading reading;
         try {
-            reading = measure(job, past);
+            reading = measure(job, previous);
         } catch (const scene::Error& error) {
             reading.problem = error.what();
-            past = {};
+            previous = {};
         }
         reading.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
         lock.lock();
         m_sameSettings = sameSettings ? m_sameSettings + 1 : 1;
         m_readings.push_back(std::move(reading));
-        if (m_most && m_readings.size() > kKept) m_readings.pop_front();
+        if (m_maxPending && m_readings.size() > kKeptReadings) m_readings.pop_front();
         m_busy = false;
         m_changed.notify_all();
     }
 }
 
-Measures::Reading Measures::measure(const Job& job, Past& past) const {
+Measures::Reading Measures::measure(const Job& job, Previous& previous) const {
     const Frame& frame = job.frame;
-    Past::Seen seen = Past::decode(frame, job.texels);
-    Reading reading{.number = frame.number, .time = frame.time, .size = seen.captured.size, .step = frame.step};
+    Previous::Decoded decoded = Previous::decode(frame, job.texels);
+    Reading reading{.number = frame.number, .time = frame.time, .size = decoded.captured.size, .step = frame.step};
     reading.sides.resize(frame.sides.size());
-    const bool follows = past.frame && !frame.cut && past.frame->number + 1 == frame.number && past.seen.captured.size == seen.captured.size &&
-                         past.frame->sides.size() == frame.sides.size();
-    const bool unchanged = follows && past.frame->sides == frame.sides && past.frame->falloff == frame.falloff;
-    past.still = unchanged && sameWorld(frame, *past.frame) && sameCamera(frame.camera, past.frame->camera) ? past.still + 1 : 0;
-    if (past.still <= kSettling) past.noise.assign(frame.sides.size(), {});
-    reading.settling = std::min(past.still, kSettling);
+    const bool follows = previous.frame && !frame.cut && previous.frame->number + 1 == frame.number && previous.decoded.captured.size == decoded.captured.size &&
+                         previous.frame->sides.size() == frame.sides.size();
+    const bool unchanged = follows && previous.frame->sides == frame.sides && previous.frame->falloff == frame.falloff;
+    previous.still = unchanged && sameWorld(frame, *previous.frame) && sameCamera(frame.camera, previous.frame->camera) ? previous.still + 1 : 0;
+    if (previous.still <= kSettling) previous.noise.assign(frame.sides.size(), {});
+    reading.settling = std::min(previous.still, kSettling);
 
     if (const std::optional<truth::Reference> found = m_cache.find(frame.viewKey);
-        found && found->channels[0].obscurance.width == seen.captured.size.x && found->channels[0].obscurance.height == seen.captured.size.y) {
-        seen.reference = truth::Traced{found->channels[0].obscurance, found->channels[0].error};
-        for (float& v : seen.reference->visibility.values) v = 1.0f - v;
-        const auto surfaces = std::count(seen.visible.begin(), seen.visible.end(), 1);
+        found && found->channels[0].obscurance.width == decoded.captured.size.x && found->channels[0].obscurance.height == decoded.captured.size.y) {
+        decoded.reference = truth::Traced{found->channels[0].obscurance, found->channels[0].error};
+        for (float& v : decoded.reference->visibility.values) v = 1.0f - v;
+        const auto surfaces = std::count(decoded.visible.begin(), decoded.visible.end(), 1);
         if (surfaces) reading.rays = float(double(found->totalRays) / double(surfaces));
     }
-    std::optional<truth::Correspondence> way;
-    if (unchanged) way = truth::correspond(seen.captured, past.seen.captured, seen.motion);
-    if (way) reading.share = way->share();
-    const truth::Traced nothing{truth::Plane(seen.captured.size.x, seen.captured.size.y), {}};
-    const bool judged = seen.reference && past.seen.reference;
-    const truth::Traced &now = judged ? *seen.reference : nothing, &before = judged ? *past.seen.reference : nothing;
-    for (size_t i = 0; i < seen.sides.size(); ++i) {
+    std::optional<truth::Correspondence> correspondence;
+    if (unchanged) correspondence = truth::correspond(decoded.captured, previous.decoded.captured, decoded.motion);
+    if (correspondence) reading.share = correspondence->share();
+    const truth::Traced nothing{truth::Plane(decoded.captured.size.x, decoded.captured.size.y), {}};
+    const bool hasReferences = decoded.reference && previous.decoded.reference;
+    const truth::Traced &now = hasReferences ? *decoded.reference : nothing, &before = hasReferences ? *previous.decoded.reference : nothing;
+    for (size_t i = 0; i < decoded.sides.size(); ++i) {
         Side& side = reading.sides[i];
-        if (seen.reference) side.errors = truth::errors(seen.sides[i], seen.reference->visibility, seen.visible);
-        if (way) {
-            const truth::Change change = truth::change(*way, seen.sides[i], past.seen.sides[i], now, before);
+        if (decoded.reference) side.errors = truth::errors(decoded.sides[i], decoded.reference->visibility, decoded.visible);
+        if (correspondence) {
+            const truth::Change change = truth::change(*correspondence, decoded.sides[i], previous.decoded.sides[i], now, before);
             if (change.pixels) side.change = change.difference;
-            if (change.pixels && judged) side.excess = change.excess(), side.flickerOfError = change.flickerOfError;
+            if (change.pixels && hasReferences) side.excess = change.excess(), side.flickerOfError = change.flickerOfError;
         }
-        if (past.still <= kSettling) continue;
-        past.noise[i].add(seen.sides[i]);
-        side.noise = past.noise[i].over(seen.visible);
-        reading.stillFrames = past.noise[i].frames();
+        if (previous.still <= kSettling) continue;
+        previous.noise[i].add(decoded.sides[i]);
+        side.noise = previous.noise[i].over(decoded.visible);
+        reading.stillFrames = previous.noise[i].frames();
     }
-    past.frame = frame;
-    past.seen = std::move(seen);
+    previous.frame = frame;
+    previous.decoded = std::move(decoded);
     return reading;
 }
 
@@ -188,7 +188,7 @@ std::optional<Measures::Reading> Measures::means() const {
     if (m_readings.empty()) return std::nullopt;
     Reading mean = m_readings.back();
     const size_t count = std::min({m_readings.size(), m_sameSettings, kMeans});
-    // Each over the readings that have it.
+    // Averages over the readings that have a value.
     const auto average = [&](size_t side, auto of) {
         double sum = 0.0;
         size_t known = 0;

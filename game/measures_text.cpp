@@ -1,4 +1,4 @@
-// Measures from frames and into tables.
+// Measures: descriptions of frames, CSV and text tables.
 #include <fmt/format.h>
 
 #include "choice.h"
@@ -18,7 +18,7 @@ Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::Wo
     truth::WorldGeometry geometry;
     geometry.skipMasked = frame.skipMasked;
     const glm::uvec2 size(frame.visible.width / frame.sampleStep, frame.visible.height / frame.sampleStep);
-    // Only a whole number of blocks looks where a smaller picture does.
+    // References exist only for steps that divide both sides.
     if (size * frame.sampleStep == glm::uvec2(frame.visible.width, frame.visible.height))
         measured.viewKey = truth::viewKey(world, frame.time, frame.camera, size, geometry, truth::rayFalloff(frame.falloff));
     return measured;
@@ -26,8 +26,8 @@ Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::Wo
 
 gpu::Status readInto(const std::shared_ptr<Measures>& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs, Measures::Frame frame) {
     if (!outputs.samples) return gpu::Status::ok;
-    return capture.addRaw(graph, outputs.samples, [wanting = std::weak_ptr(measures), frame = std::move(frame)](std::span<const std::byte> texels) {
-        if (const auto there = wanting.lock()) there->add(frame, texels);
+    return capture.addRaw(graph, outputs.samples, [weak = std::weak_ptr(measures), frame = std::move(frame)](std::span<const std::byte> texels) {
+        if (const auto target = weak.lock()) target->add(frame, texels);
     });
 }
 
@@ -49,10 +49,10 @@ std::string summary(const std::vector<Measures::Reading>& readings) {
     if (readings.empty()) return "measures: none\n";
     const Measures::Reading& last = readings.back();
     if (!last.problem.empty()) return fmt::format("measures: {}\n", last.problem);
-    size_t judged = 0;
-    for (const Measures::Reading& reading : readings) judged += reading.rays > 0.0f;
-    std::string text = fmt::format("measures of {} x {} pixels, every {}; {} of {} frames have a reference\n", last.size.x, last.size.y, last.step,
-                                   judged, readings.size());
+    size_t referenced = 0;
+    for (const Measures::Reading& reading : readings) referenced += reading.rays > 0.0f;
+    std::string text = fmt::format("measures of {} x {} pixels, step {} px; {} of {} frames have a reference\n", last.size.x, last.size.y, last.step,
+                                   referenced, readings.size());
     text += fmt::format("{:<4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "side", "D_A", "noise", "noise P99", "bias", "eA", "e<5%", "excess", "F_e");
     for (size_t i = 0; i < last.sides.size(); ++i) {
         const auto mean = [&](auto of) {

@@ -69,11 +69,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(keyPage(true) +
                "\nEnvironment:\n"
-               "  OBSCURA_CONTENT      another folder of scenes, looked in after content/\n"
-               "  OBSCURA_SHADERS      the shaders folder that is watched for edits\n"
-               "  OBSCURA_DEVICE       what --device names, where that is not given\n"
+               "  OBSCURA_CONTENT      another folder of scenes, searched after content/\n"
+               "  OBSCURA_SHADERS      the shaders folder whose edits are reloaded\n"
+               "  OBSCURA_DEVICE       default of --device\n"
                "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
-               "\nExit codes: 0 done, 1 the machine could not do it, 2 bad input, 3 the validation layer complained\n");
+               "\nExit codes: 0 success, 1 device or system failure, 2 invalid input, 3 validation messages\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     std::string method, preset, resolve, offscreen, falloff, compare, view = "final", slice, size, camera, path, eye, target;
     std::vector<std::string> assignments;
@@ -81,11 +81,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     uint32_t frames = 1, switchTest = 0;
     float fov = 60.0f;
 
-    const char* kPicture = "What is shown";
+    const char* kPicture = "Picture";
     cli.add_option("--scene", options.scene, "toasters, atrium, sponza, dragon, or the path of a glTF file")->group(kPicture)->capture_default_str();
     cli.add_option("--method", method, "Obscurance method, by its id (--list-methods)")->group(kPicture);
     cli.add_option("--preset", preset, "Preset of that method")->group(kPicture);
-    cli.add_option("--resolve", resolve, "What becomes of its samples: raw, spatial (its own blur), or temporal (and a history)")->group(kPicture);
+    cli.add_option("--resolve", resolve, "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history)")->group(kPicture);
     cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
         ->group(kPicture)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     cli.add_option("--offscreen", offscreen, app::kOffScreenHelp)->group(kPicture);
@@ -95,24 +95,24 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--view", view, fmt::format("{}, or pass:NAME", fmt::join(views, ", ")))
         ->group(kPicture)->capture_default_str();
     cli.add_option("--compare", compare, "METHOD[:PRESET][,PARAMETER=VALUE...]: a second setting B on the same frames, shown right of a divider")->group(kPicture);
-    cli.add_option("--split", options.split, "Where the divider stands, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
-    cli.add_option("--difference-range", options.differenceRange, "Difference of visibility at which the difference views end")
+    cli.add_option("--split", options.split, "Position of the divider, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
+    cli.add_option("--difference-range", options.differenceRange, "Difference of visibility at which the difference views saturate")
         ->group(kPicture)->check(CLI::Range(0.001f, 1.0f))->capture_default_str();
     auto* timeOption = cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
     cli.add_option("--guard", options.guard, "Guard band around the picture, fraction of each side")->group(kPicture)->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
     cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")->group(kPicture)->check(CLI::Range(0.001f, 1000.0f))->capture_default_str();
-    cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, beside the scene's own")->group(kPicture)->check(CLI::Range(0u, 64u))->capture_default_str();
-    cli.add_flag("--bare", options.bare, "Leave out the toasters that the game sets down in a scene: what obscura-evaluate and obscura-flythrough draw")->group(kPicture);
+    cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, in addition to the scene's own")->group(kPicture)->check(CLI::Range(0u, 64u))->capture_default_str();
+    cli.add_flag("--bare", options.bare, "Leave out the toasters that the game adds to a scene, as obscura-evaluate and obscura-flythrough do")->group(kPicture);
     cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")->group(kPicture);
 
     app::addVoxelArguments(cli, options.voxels, kPicture);
-    cli.add_option("--voxel-slice", slice, "AXIS or AXIS:METRES: the layer that --view voxel-slice shows, x, y or z; where the camera is unless said")->group(kPicture);
+    cli.add_option("--voxel-slice", slice, "AXIS or AXIS:METRES: the layer that --view voxel-slice shows, x, y or z; default: at the camera")->group(kPicture);
 
     const char* kCamera = "Camera";
     auto* cameraOption = cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")->group(kCamera);
-    auto* pathOption = cli.add_option("--path", path, "Replay this FILE.json (R records one) at 30 frames a second of the world's time, from its first key or --time on; headless: all of it")
+    auto* pathOption = cli.add_option("--path", path, "Replay FILE.json (key R records one) in steps of 1/30 s of world time, from its first key or --time; headless: to its end")
         ->group(kCamera)->excludes(cameraOption);
-    cli.add_flag("--flythrough", flythrough, "Fly along the scene's own path, where no other camera is named")->group(kCamera);
+    cli.add_flag("--flythrough", flythrough, "Follow the scene's flythrough, unless another camera is given")->group(kCamera);
     auto* eyeOption = cli.add_option("--eye", eye, "X,Y,Z of the camera, metres")->group(kCamera);
     auto* targetOption = cli.add_option("--target", target, "X,Y,Z it looks at")->group(kCamera);
     auto* fovOption = cli.add_option("--fov", fov, "Vertical field of view, degrees")->group(kCamera)->check(CLI::Range(1.0f, 170.0f));
@@ -121,10 +121,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     eyeOption->needs(targetOption);
     targetOption->needs(eyeOption);
 
-    const char* kRun = "How it runs";
+    const char* kRun = "Run";
     cli.add_flag("--headless", headless, "Render without a window or display")->group(kRun);
-    auto* framesOption = cli.add_option("--frames", frames, "Frames to render, then stop (headless: 1 unless said)")->group(kRun)->check(CLI::Range(1u, 1000000u));
-    cli.add_option("--step", options.step, "Seconds a headless frame takes; 0 holds the time")->group(kRun)->check(CLI::Range(0.0f, 10.0f))->capture_default_str();
+    auto* framesOption = cli.add_option("--frames", frames, "Frames to render, then stop (headless default: 1)")->group(kRun)->check(CLI::Range(1u, 1000000u));
+    cli.add_option("--step", options.step, "World time of a headless frame, seconds; 0 keeps the time fixed")->group(kRun)->check(CLI::Range(0.0f, 10.0f))->capture_default_str();
     cli.add_option("--size", size, "WIDTHxHEIGHT of the picture or window, pixels (1280x720)")->group(kRun);
     cli.add_option("--screenshot", options.screenshot, "PNG of the last frame")->group(kRun);
     cli.add_option("--out", options.out, "Folder for every frame as PNG, summary.html and timings.json")->group(kRun);
@@ -132,21 +132,21 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     auto* switchOption = cli.add_option("--switch-test", switchTest, "Run every method this many frames, then switch at each frame; report the worst")
         ->group(kRun)->check(CLI::Range(1u, 10000u));
     cli.add_flag("--full-screen", options.fullScreen, "Start in full screen")->group(kRun);
-    cli.add_flag("--no-vsync", noVsync, "Do not wait for the monitor")->group(kRun);
-    cli.add_flag("--no-present", options.noPresent, "Behave as on a device that cannot show windows")->group(kRun);
+    cli.add_flag("--no-vsync", noVsync, "Present without waiting for vertical sync")->group(kRun);
+    cli.add_flag("--no-present", options.noPresent, "Behave as on a device that cannot present")->group(kRun);
 
     const char* kDevice = "Device";
     cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use (--list-devices)")->group(kDevice);
     cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync (core and synchronization)")
         ->group(kDevice)->check(CLI::IsMember({"off", "core", "sync"}))->capture_default_str();
-    auto* cacheOption = cli.add_option("--pipeline-cache", options.pipelineCache, "File of compiled pipelines that the next start reads (in the user's cache folder)")->group(kDevice);
-    cli.add_flag("--no-pipeline-cache", options.noPipelineCache, "Neither read nor write that file")->group(kDevice)->excludes(cacheOption);
-    cli.add_flag("--verbose", options.verbose, "Print what the renderer has to say, and start-up times")->group(kDevice);
+    auto* cacheOption = cli.add_option("--pipeline-cache", options.pipelineCache, "Pipeline cache file (default: in the user's cache folder)")->group(kDevice);
+    cli.add_flag("--no-pipeline-cache", options.noPipelineCache, "Do not read or write a pipeline cache")->group(kDevice)->excludes(cacheOption);
+    cli.add_flag("--verbose", options.verbose, "Print the renderer's log and start-up times")->group(kDevice);
 
     const char* kLists = "Lists";
     auto* methodsFlag = cli.add_flag("--list-methods", listMethods, "Print every method with its parameters and presets")->group(kLists);
-    cli.add_flag("--json", options.json, "... as JSON")->group(kLists)->needs(methodsFlag);
-    cli.add_flag("--list-scenes", listScenes, "Print the named scenes and where they are found")->group(kLists);
+    cli.add_flag("--json", options.json, "Print the list of methods as JSON")->group(kLists)->needs(methodsFlag);
+    cli.add_flag("--list-scenes", listScenes, "Print the named scenes and their files")->group(kLists);
     cli.add_flag("--list-devices", listDevices, "Print the Vulkan devices")->group(kLists);
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
@@ -190,7 +190,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         throw Complaint(fmt::format("--view {}: no such view; {}, pass:NAME", view, app::choices(view, views)));
     }
     if (!compare.empty()) options.compare.emplace().read(compare);
-    if (render::isDifference(options.view) && !options.compare) throw Complaint(fmt::format("--view {}: of what? name a second method with --compare", view));
+    if (render::isDifference(options.view) && !options.compare) throw Complaint(fmt::format("--view {}: needs two methods; give the second with --compare", view));
     return options;
 }
 

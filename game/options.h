@@ -1,4 +1,4 @@
-// The command line as a struct. Everything that can be judged without a GPU or a scene is judged here.
+// The command line as a struct. Parsing checks everything that needs neither a GPU nor a scene.
 #pragma once
 
 #include <filesystem>
@@ -16,16 +16,16 @@ namespace obscura::game {
 
 enum class Job { play, headless, listMethods, listScenes, listDevices };
 
-// Where the camera is taken from.
+// Source of the camera.
 struct CameraChoice {
     enum class Kind { scene, flythrough, file, lens, path, fixed } kind = Kind::scene;
     std::filesystem::path file;    // file, path
     int lens = 0;                  // the n-th camera of the scene's glTF
-    std::optional<float> at;       // path: stand still at this time
+    std::optional<float> at;       // path: camera fixed at this time, s
     glm::vec3 eye{0.0f}, target{0.0f};
-    std::optional<float> fovDegrees;  // replaces that of any kind
-    bool replay = false;           // path: at fixed steps from `start`, whatever the clock says
-    std::optional<float> start;    // of a replay; its first key's time unless given
+    std::optional<float> fovDegrees;  // replaces the field of view of any kind
+    bool replay = false;           // path: fixed time steps from `start`, independent of the clock
+    std::optional<float> start;    // of a replay, s; empty: time of the path's first key
 };
 
 struct Options {
@@ -43,7 +43,7 @@ struct Options {
     VkExtent2D size{1280, 720};
     std::optional<uint32_t> frames;
     std::optional<uint32_t> switchTest;  // steady frames before each switch
-    bool bare = false;                   // without the toasters that the scene's entry sets down
+    bool bare = false;                   // without the toasters of the scene's manifest entry
     float time = 0.0f;
     float step = 1.0f / 30.0f;
     float guard = 0.1f;
@@ -62,10 +62,10 @@ struct Options {
     std::string passView;
     std::filesystem::path screenshot;
     std::filesystem::path out;
-    std::string commandLine;             // for the report
+    std::string commandLine;             // written into the report
 };
 
-// Throws app::Complaint. Nothing when the line asked for help or the version, which has been printed.
+// Throws app::Complaint. Empty after printing help or the version.
 std::optional<Options> parseOptions(int argc, const char* const* argv);
 
 }  // namespace obscura::game

@@ -1,4 +1,4 @@
-// Everything about methods comes out of their tables: a new method has its menu entry, keys and sliders by being registered.
+// The main panel, the key list and notices. Menu entries, presets and sliders of methods are generated from the registry.
 #include "panels.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ void drawParameters(ao::Values& values) {
             int whole = int(value + (value < 0.0f ? -0.5f : 0.5f));
             if (ImGui::SliderInt(label.c_str(), &whole, int(parameter.minimum), int(parameter.maximum))) values.set(parameter.id, float(whole));
         } else {
-            // Ranges over several powers of ten need a slider that gives each of them room.
+            // Ranges over several powers of ten need a logarithmic slider.
             const float least = parameter.minimum > 0.0f ? parameter.minimum : parameter.initial;
             const bool wide = least > 0.0f && parameter.maximum / least > 50.0f;
             if (ImGui::SliderFloat(label.c_str(), &value, parameter.minimum, parameter.maximum, "%.4g", wide ? ImGuiSliderFlags_Logarithmic : 0))
@@ -88,12 +88,12 @@ void falloffPanel(ao::Falloff& falloff) {
         falloff.kind = ao::FalloffKind(kind);
         if (falloff.kind == ao::FalloffKind::ramp) falloff.end = std::max(falloff.end, falloff.length * 2.0f);
     }
-    tip("How much an occluder counts by its distance: 1 at the surface, less further away.");
+    tip("Weight of an occluder by its distance: 1 at the surface, decreasing with distance.");
     const bool ramp = falloff.kind == ao::FalloffKind::ramp;
-    ImGui::SliderFloat(ramp ? "full up to [m]" : "length [m]", &falloff.length, 0.01f, 20.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
+    ImGui::SliderFloat(ramp ? "1 up to [m]" : "length [m]", &falloff.length, 0.01f, 20.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
     falloff.length = std::max(falloff.length, 1e-3f);
     if (!ramp) return;
-    ImGui::SliderFloat("none from [m]", &falloff.end, 0.02f, 40.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
+    ImGui::SliderFloat("0 from [m]", &falloff.end, 0.02f, 40.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
     falloff.end = std::max(falloff.end, falloff.length * 1.001f);
 }
 
@@ -113,10 +113,10 @@ void viewPanel(Session& session) {
             }
         ImGui::EndCombo();
     }
-    tip("The picture, one of the buffers behind it, or what any pass of the frame wrote.");
+    tip("Shows the picture, a buffer of the frame, or the output of any pass.");
     ImGui::SliderFloat("exposure", &session.exposure, 0.05f, 20.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
     ImGui::SliderFloat("guard band", &session.guard, 0.0f, 0.5f, "%.2f");
-    tip("How far buffers reach beyond the picture, as a fraction of each side: occluders just outside still count. Costs their pixels.");
+    tip("Renders buffers beyond the picture by this fraction of each side, so that occluders outside it count. Costs the time of the extra pixels; at 0 occlusion is missing along the borders.");
 }
 
 bool wantsVoxels(const Session& session) {
@@ -127,26 +127,26 @@ void voxelPanel(Session& session) {
     render::Voxelization& voxels = session.voxels;
     if (session.view == render::View::voxelSlice) {
         render::VoxelSlice& slice = session.slice;
-        ImGui::Combo("slice across", &slice.axis, "x\000y\000z\0");
+        ImGui::Combo("slice axis", &slice.axis, "x\000y\000z\0");
         bool atEye = !slice.at;
         float at = slice.at.value_or(session.camera().eye[slice.axis]);
         if (ImGui::SliderFloat("slice at [m]", &at, session.stage.bounds.min[slice.axis], session.stage.bounds.max[slice.axis], "%.2f")) slice.at = at;
-        else if (ImGui::Checkbox("where the camera is", &atEye)) slice.at = atEye ? std::nullopt : std::optional(at);
+        else if (ImGui::Checkbox("at the camera", &atEye)) slice.at = atEye ? std::nullopt : std::optional(at);
     }
     int voxelizer = int(voxels.voxelizer), shell = int(voxels.shell), side = std::countr_zero(voxels.cells) - 6;
     if (ImGui::Combo("voxelizer", &voxelizer, app::kVoxelizerNames, int(std::size(app::kVoxelizerNames)))) voxels.voxelizer = render::Voxelizer(voxelizer);
-    tip("openvdb: what rests is made once and kept, objects are redone as they move, on a thread of its own. gpu: everything, every frame.");
+    tip("openvdb: a worker thread voxelizes static geometry once, and objects again when they move. gpu: everything is voxelized every frame.");
     int structure = int(voxels.structure);
     if (ImGui::Combo("voxel structure", &structure, app::kStructureNames, int(std::size(app::kStructureNames)))) voxels.structure = ao::VolumeStructure(structure);
-    tip("dense: a window of bits around the camera. nanovdb: all of the world as a sparse grid, made by OpenVDB; slower to trace.");
+    tip("dense: a cube of bits around the camera. nanovdb: the whole world as a sparse grid, built by OpenVDB; slower to trace.");
     if (ImGui::Combo("voxel shell", &shell, app::kShellNames, int(std::size(app::kShellNames)))) voxels.shell = voxel::Shell(shell);
-    tip("conservative: each cell that a surface touches. thin: as few as stop a path over cell faces; short rays miss some.");
+    tip("conservative: every cell that a surface touches. thin: the fewest cells that no path across cell faces passes; short rays miss some surfaces.");
     if (ImGui::Combo("voxel window", &side, "64\000128\000256\000512\0")) voxels.cells = 64u << side;
-    tip("Cells a side of the cube around the camera that the GPU holds.");
+    tip("Cells per side of the voxel cube around the camera. Memory grows with its cube; at few cells distant occluders are missing.");
 }
 
 void timePanel(Session& session) {
-    if (ImGui::Button(session.paused ? "go on" : " pause")) session.act(Action::pause, 0);
+    if (ImGui::Button(session.paused ? "Resume" : "Pause")) session.act(Action::pause, 0);
     ImGui::SameLine();
     if (ImGui::Button("<")) session.act(Action::stepBack, 0);
     ImGui::SameLine();
@@ -159,18 +159,18 @@ void timePanel(Session& session) {
     const float end = std::max({session.stage.world.duration(), session.stage.path.duration, 1.0f});
     float shown = std::fmod(session.time, end);
     if (ImGui::SliderFloat("time [s]", &shown, 0.0f, end, "%.2f")) session.scrub(shown);
-    tip("The world's time; drag to scrub. Animations and flythrough begin anew at the end.");
-    ImGui::SliderFloat("pace", &session.pace, 0.125f, 8.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
-    if (ImGui::Button(session.recorder.running() ? "stop recording" : "record")) session.act(Action::record, 0);
-    tip("Writes the camera's path into a file in the current folder.");
+    tip("World time; drag to scrub. Animations and flythrough restart at the end.");
+    ImGui::SliderFloat("time scale", &session.pace, 0.125f, 8.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
+    if (ImGui::Button(session.recorder.running() ? "Stop recording" : "Record")) session.act(Action::record, 0);
+    tip("Writes the camera path to a file in the current folder.");
     ImGui::SameLine();
-    if (ImGui::Button(session.replaying() ? "let go" : "replay")) session.act(Action::replay, 0);
-    tip("Flies the path that was recorded last, at 30 frames a second of the world's time however long a frame takes: every replay draws the same frames.");
+    if (ImGui::Button(session.replaying() ? "Stop replay" : "Replay")) session.act(Action::replay, 0);
+    tip("Replays the last recorded path in steps of 1/30 s of world time, so that every replay draws the same frames.");
     ImGui::SameLine();
     ImGui::TextUnformatted(session.recorder.running() ? fmt::format("{:.1f} s", session.recorder.seconds()).c_str() : session.replayFile.filename().c_str());
-    if (ImGui::Button("drop a toaster")) session.act(Action::dropToy, 0);
+    if (ImGui::Button("Drop a toaster")) session.act(Action::dropToy, 0);
     ImGui::SameLine();
-    if (ImGui::Button("take one away")) session.act(Action::removeToy, 0);
+    if (ImGui::Button("Remove one")) session.act(Action::removeToy, 0);
     ImGui::SameLine();
     ImGui::Text("%zu / %zu", session.stage.toys(), Stage::kMostToys);
 }
@@ -183,7 +183,7 @@ void factsPanel(Session& session) {
     ImGui::TextUnformatted(fmt::format("{}\n{} triangles, {} drawn in {} draws\n{} instances", session.stage.info.title, facts.triangles,
                                        facts.drawn, facts.draws, facts.instances).c_str());
     ImGui::TextUnformatted(fmt::format("memory {:.1f} MiB: frame {:.1f}, textures {:.1f}, geometry {:.1f}",
-                                       double(session.engine.device().memoryUse()) * mebi, double(session.engine.graph().poolBytes()) * mebi,
+                                       double(session.engine.device().memoryUse()) * mebi, double(session.engine.frames().executor().poolBytes()) * mebi,
                                        double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi).c_str());
     if (const voxel::Voxels* voxels = session.engine.renderer().voxels(); voxels && wantsVoxels(session))
         ImGui::TextUnformatted(voxelFacts(*voxels, session.statistics).c_str());
@@ -197,7 +197,7 @@ void errorPanel(const std::vector<std::string>& errors) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x * 0.5f, size.y - 12.0f}, ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {size.x * 0.9f, size.y * 0.4f});
-    if (ImGui::Begin("Shader errors: the last good program goes on", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
+    if (ImGui::Begin("Shader errors: the last valid program stays in use", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
         ImGui::PushStyleColor(ImGuiCol_Text, {1.0f, 0.55f, 0.45f, 1.0f});
         for (const std::string& error : errors) ImGui::TextUnformatted(error.c_str());
         ImGui::PopStyleColor();
@@ -214,7 +214,7 @@ void noticeLine(const Session& session) {
     ImGui::End();
 }
 
-// Where the panels stand follows the window when that is resized; else they stay where they were dragged.
+// Panels return to their default place when the window is resized; otherwise they stay where the user put them.
 ImGuiCond placing() {
     static ImVec2 last{0.0f, 0.0f};
     static int frame = -1;
@@ -249,9 +249,9 @@ void drawMain(Session& session) {
         ImGui::Separator();
         bool measuring = session.measures != nullptr;
         if (ImGui::Checkbox("measure", &measuring)) session.act(Action::measure, 0);
-        tip("Noise, flicker and errors of what is shown, from every few pixels of each frame.");
+        tip("Measures noise, flicker and errors of the picture on every n-th pixel of each frame.");
         factsPanel(session);
-        ImGui::TextDisabled("F1 keys   Tab hides this");
+        ImGui::TextDisabled("F1: keys   Tab: hide panels");
         ImGui::PopItemWidth();
     }
     ImGui::End();

@@ -10,9 +10,9 @@ void drawTimes(const Session& session);  // inside a window: bars, history, fram
 void drawMeasures(const Session& session);  // inside a window: noise, flicker, errors
 void drawKeys();
 void drawComparison(Session& session);   // inside a window: side B
-void drawDivider(const Session& session);  // on the picture: the divider, what is on either side and what it costs
+void drawDivider(const Session& session);  // over the picture: divider, and setting and GPU time of each side
 
-void drawParameters(ao::Values& values);  // inside a window: preset and every parameter of a method's table
-void tip(const char* sentence);           // over the last item
+void drawParameters(ao::Values& values);  // inside a window: preset, resolve and all parameters of a method
+void tip(const char* sentence);           // tooltip of the last item
 
 }  // namespace obscura::game

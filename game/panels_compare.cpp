@@ -1,4 +1,4 @@
-// Two methods beside each other: the panel of side B, the divider and its labels.
+// Comparison of two settings: the panel of side B, the divider and its labels.
 #include <algorithm>
 #include <cmath>
 
@@ -23,12 +23,12 @@ std::string sideLabel(const Session& session, const char* side, const ao::Values
 void drawComparison(Session& session) {
     bool on = session.comparing;
     if (ImGui::Checkbox("compare with B", &on)) session.setComparing(on);
-    tip("A is left of the divider, B right of it: two methods, or one with two settings, on the same frame with the same falloff, each with its own past.");
+    tip("A is left of the divider, B right of it: two methods, or one with two settings, on the same frame with the same falloff, each with its own history.");
     if (!session.comparing) return;
     ImGui::SameLine();
-    if (ImGui::Button("swap")) session.act(Action::swapSides, 0);
+    if (ImGui::Button("Swap")) session.act(Action::swapSides, 0);
     ImGui::SameLine();
-    if (ImGui::Button("copy A to B")) session.act(Action::copySide, 0);
+    if (ImGui::Button("Copy A to B")) session.act(Action::copySide, 0);
     ImGui::PushID("B");
     if (ImGui::BeginCombo("B", session.other.info().title, ImGuiComboFlags_HeightLarge)) {
         const auto methods = ao::methods();
@@ -43,13 +43,13 @@ void drawComparison(Session& session) {
     ImGui::PopID();
     ImGui::SliderFloat("divider", &session.split, 0.0f, 1.0f, "%.2f");
     ImGui::SliderFloat("difference range", &session.differenceRange, 0.005f, 1.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
-    tip("The difference of visibility at which the views difference and signed-difference end: white, and pale orange or pale blue.");
+    tip("Difference of visibility at which the difference views saturate: to white in difference, to pale orange or pale blue in signed-difference.");
 }
 
 void drawDivider(const Session& session) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImDrawList* draw = ImGui::GetBackgroundDrawList();
-    // A difference has no sides, but its colours have: orange where A is lighter.
+    // Difference views have no divider, but keep the labels: orange means that A is lighter.
     const bool sides = !render::isDifference(session.view) && session.view != render::View::pass;
     const float x = sides ? std::round(session.split * size.x) : std::round(0.5f * size.x);
     if (sides) {

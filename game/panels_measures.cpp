@@ -1,4 +1,4 @@
-// What the measures say, A and B beside each other.
+// The panel of measures: noise, flicker and errors of A and B.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -28,46 +28,46 @@ void drawMeasures(const Session& session) {
     if (!reading) return ImGui::TextUnformatted("waiting for the first frame");
     if (!reading->problem.empty()) ImGui::TextWrapped("%s", reading->problem.c_str());
     if (ImGui::BeginTable("measures", 1 + int(reading->sides.size()), ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-        ImGui::TableSetupColumn("of visibility, 0 to 1");
+        ImGui::TableSetupColumn("in visibility, 0 to 1");
         const float width = ImGui::CalcTextSize("-0.00000").x;
         ImGui::TableSetupColumn("A", ImGuiTableColumnFlags_WidthFixed, width);
         if (reading->sides.size() > 1) ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthFixed, width);
         ImGui::TableHeadersRow();
         using Side = Measures::Side;
-        row(*reading, "change D_A", "Mean change from frame to frame along motion, where the same surface stayed in sight. Over the last 32 frames.",
+        row(*reading, "change D_A", "Mean change between frames along motion, over pixels whose surface is visible in both. Mean of the last 32 frames.",
             [](const Side& s) { return s.change; });
         const auto noise = [](float truth::StaticNoise::Result::* of) {
             return [of](const Side& s) { return s.noise ? std::optional<float>((*s.noise).*of) : std::nullopt; };
         };
-        const char* still = "Standard deviation of each pixel over frames while camera, world and settings stand still: mean and 99th percentile over pixels. "
-                            "Counts after 32 frames.";
+        const char* still = "Standard deviation of each pixel over frames with fixed camera, world and settings: mean and 99th percentile over pixels. "
+                            "Starts after 32 still frames.";
         row(*reading, "static noise", still, noise(&truth::StaticNoise::Result::mean));
-        row(*reading, "  its P99", still, noise(&truth::StaticNoise::Result::p99));
+        row(*reading, "  P99", still, noise(&truth::StaticNoise::Result::p99));
         const auto error = [](float truth::Errors::* of) {
             return [of](const Side& s) { return s.errors ? std::optional<float>((*s.errors).*of) : std::nullopt; };
         };
-        row(*reading, "error eA", "Mean distance to the ray-traced reference of this frame.", error(&truth::Errors::eA));
-        row(*reading, "  bias", "Mean of picture less reference: above 0 is too light.", error(&truth::Errors::bias));
-        row(*reading, "  share < 5 %", "Of pixels nearer than 0.05 to the reference.", error(&truth::Errors::e5));
-        row(*reading, "excess flicker F", "What change exceeds that of the reference by. Over the last 32 frames.", [](const Side& s) { return s.excess; });
-        row(*reading, "flicker of error F_e", "Root mean square change of the error along motion. Over the last 32 frames.",
+        row(*reading, "error eA", "Mean absolute difference from the ray-traced reference of this frame.", error(&truth::Errors::eA));
+        row(*reading, "  bias", "Mean of picture minus reference; above 0 is too bright.", error(&truth::Errors::bias));
+        row(*reading, "  share < 5 %", "Fraction of pixels whose error is below 0.05.", error(&truth::Errors::e5));
+        row(*reading, "excess flicker F", "Change D_A minus the change of the reference. Mean of the last 32 frames.", [](const Side& s) { return s.excess; });
+        row(*reading, "flicker of error F_e", "Root mean square change of the error along motion. Mean of the last 32 frames.",
             [](const Side& s) { return s.flickerOfError; });
         ImGui::EndTable();
     }
     ImGui::PushTextWrapPos(0.0f);
     if (reading->stillFrames) ImGui::TextUnformatted(fmt::format("noise over {} still frames", reading->stillFrames).c_str());
     else if (reading->settling) ImGui::TextUnformatted(fmt::format("still for {} of {} frames", reading->settling, Measures::kSettling).c_str());
-    else ImGui::TextUnformatted("noise: while camera and world stand still");
+    else ImGui::TextUnformatted("noise is measured while camera and world stand still");
     if (reading->rays > 0.0f) {
         ImGui::TextUnformatted(fmt::format("reference: {:.0f} rays a pixel", reading->rays).c_str());
     } else {
         const std::string hint = session.referenceHint(*reading);
-        ImGui::TextUnformatted("no reference of this frame:");
+        ImGui::TextUnformatted("no reference for this frame:");
         ImGui::TextUnformatted(hint.c_str());
-        if (hint.starts_with("obscura-flythrough") && ImGui::Button("copy the command")) ImGui::SetClipboardText(hint.c_str());
+        if (hint.starts_with("obscura-flythrough") && ImGui::Button("Copy command")) ImGui::SetClipboardText(hint.c_str());
     }
     const double gpu = session.statistics.total("samples") + session.statistics.total("capture");
-    ImGui::TextDisabled("%s", fmt::format("{} x {}, every {}; GPU {:.2f} ms, beside the game {:.1f} ms; {} frames left out", reading->size.x, reading->size.y,
+    ImGui::TextDisabled("%s", fmt::format("{} x {}, every {}; GPU {:.2f} ms, worker {:.1f} ms; {} frames skipped", reading->size.x, reading->size.y,
                                           reading->step == 1 ? "pixel" : fmt::format("{} pixels", reading->step), gpu,
                                           reading->milliseconds, session.measures->leftOut()).c_str());
     ImGui::PopTextWrapPos();

@@ -22,7 +22,7 @@ void plot(const app::Series& series, float height) {
     draw->AddRectFilled(from, {from.x + width, from.y + height}, kGround);
     if (series.values.size() < 2) return;
     const double median = series.median(), p95 = series.p95();
-    // One long frame must not flatten all others: the scale follows the 95th percentile.
+    // The scale follows the 95th percentile, so that one long frame does not flatten the plot.
     const double top = std::max(p95 * 1.4, 1e-3);
     const auto at = [&](size_t i, double value) {
         return ImVec2(from.x + width * float(i) / float(series.values.size() - 1), from.y + height * (1.0f - float(std::min(value / top, 1.0))));
@@ -61,7 +61,7 @@ void bars(const std::vector<app::Series>& passes, std::string& chosen) {
 }  // namespace
 
 void drawTimes(const Session& session) {
-    static std::string chosen;  // the pass whose history is shown; none: the whole frame's
+    static std::string chosen;  // the pass that is plotted; empty: the whole frame
     const app::Statistics& times = session.statistics;
     const double frame = times.frame().median();
     ImGui::PushTextWrapPos(0.0f);
@@ -76,7 +76,7 @@ void drawTimes(const Session& session) {
     ImGui::Text("%s, the last %zu frames", pass == passes.end() ? "gpu frame" : shown.name.c_str(), shown.values.size());
     plot(shown, ImGui::GetFontSize() * 5.0f);
     ImGui::Separator();
-    if (!session.engine.device().caps().timestamps) ImGui::TextUnformatted("this device measures no GPU times");
+    if (!session.engine.device().caps().timestamps) ImGui::TextUnformatted("no GPU times: this device has no timestamps");
     bars(passes, chosen);
 }
 

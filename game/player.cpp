@@ -47,7 +47,7 @@ void Player::update(const app::Window& window, float seconds, float speed, const
 
     const bool fast = window.held(GLFW_KEY_LEFT_SHIFT) || window.held(GLFW_KEY_RIGHT_SHIFT);
     const float step = speed * (fast ? 4.0f : 1.0f) * seconds;
-    // Walking keeps its pace whatever the head looks at.
+    // Walking speed is independent of the pitch.
     const glm::vec3 forward = forwardOf(m_yaw, walking ? 0.0f : m_pitch);
     const glm::vec3 right(std::cos(m_yaw), 0.0f, std::sin(m_yaw));
     glm::vec3 wish = axis(GLFW_KEY_W, GLFW_KEY_S) * forward + axis(GLFW_KEY_D, GLFW_KEY_A) * right;
@@ -56,7 +56,7 @@ void Player::update(const app::Window& window, float seconds, float speed, const
     m_position += step * wish;
 
     if (walking) {
-        // Clamping one axis at a time is what makes a walker slide along a wall.
+        // Each axis is clamped separately, so that a walker slides along a wall.
         m_position.x = std::clamp(m_position.x, ground.min.x, ground.max.x);
         m_position.z = std::clamp(m_position.z, ground.min.y, ground.max.y);
         constexpr float kGravity = 9.81f;

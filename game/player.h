@@ -8,7 +8,7 @@
 
 namespace obscura::game {
 
-// Where a walker may go.
+// The area of a walker.
 struct Ground {
     float floor = 0.0f;
     glm::vec2 min{-1e6f}, max{1e6f};  // x and z
@@ -18,7 +18,7 @@ class Player {
 public:
     static constexpr float kEyeHeight = 1.7f;  // metres
 
-    void look(const scene::Camera& from);  // takes over position, direction and lens
+    void look(const scene::Camera& from);  // copies position, direction and field of view
     scene::Camera camera() const;
     // Held keys and mouse of one frame. `speed` in metres a second.
     void update(const app::Window& window, float seconds, float speed, const Ground& ground);

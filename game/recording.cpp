@@ -8,7 +8,7 @@ namespace obscura::game {
 uint32_t replayFrames(const scene::CameraPath& path, float start) {
     const float seconds = path.loop ? path.duration : path.keys.back().time - start;
     const float frames = std::max(0.0f, seconds) * kReplayRate;
-    // A loop's end is its beginning; the last key of an open path is shown, be it rounded.
+    // A loop ends before it repeats its first frame; an open path shows its last key. 1e-2 absorbs rounding.
     return std::max(1u, uint32_t(path.loop ? std::ceil(frames - 1e-2f) : std::floor(frames + 1e-2f) + 1.0f));
 }
 

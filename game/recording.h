@@ -1,4 +1,4 @@
-// The player's own camera path: written down as it is flown, flown again at fixed steps.
+// Records the player's camera path; times of its replay in fixed steps.
 #pragma once
 
 #include "scene/camera.h"
@@ -7,20 +7,20 @@ namespace obscura::game {
 
 inline constexpr float kReplayRate = 30.0f;  // frames a second, as obscura-flythrough's
 
-// A replay's world time at a frame; the same arithmetic as obscura-flythrough's, so that frames are the same to the bit.
+// World time of a replay's frame, s. Same arithmetic as obscura-flythrough's, so that frames are bit-identical.
 inline float replayTime(float start, uint32_t frame) { return start + float(frame) / kReplayRate; }
-// From `start` until the path's last key or, where it loops, once round; at least one.
+// Frames from `start` to the path's last key, or of one loop; at least 1.
 uint32_t replayFrames(const scene::CameraPath& path, float start);
 
-// Keys lie on the world's clock, at most one a replayed frame: a path belongs to what moved while it was flown.
+// Keys carry world time, at most one per replayed frame, so that a replay meets the same animation.
 class Recorder {
 public:
     void start(const std::string& scene);  // of content/scenes.json, or a glTF file
     bool running() const { return m_running; }
     float seconds() const;                 // recorded so far
-    // A time that does not go on (the world is paused) adds nothing. False: it went back, which a path cannot.
+    // Adds nothing while the world is paused. False: time went backwards, which a path cannot store.
     bool add(float time, const scene::Camera& camera);
-    scene::CameraPath finish();            // open, without keys if none was added
+    scene::CameraPath finish();            // does not loop; has no keys if none was added
 
 private:
     scene::CameraPath m_path;

@@ -24,7 +24,7 @@ std::string escape(const std::string& text) {
 }
 
 std::string image(const app::Picture& picture, const std::string& caption) {
-    // A page of four-megapixel pictures helps nobody; the full ones lie beside it.
+    // Halved to at most 1000 px of width, which keeps the page small; frames in full size are separate files.
     app::Picture shown = picture;
     while (shown.width > 1000) shown = shown.half();
     return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n", escape(caption),
@@ -74,11 +74,11 @@ std::string voxelFacts(const voxel::Voxels& voxels, const app::Statistics& times
     };
     const std::string window = voxels.options().nano ? fmt::format("NanoVDB grid of {:.2f} MiB on the GPU", double(v.windowBytes) * mebi) : fmt::format("window of {} cells a side, {:.1f} MiB on the GPU", voxels.options().cells, double(v.windowBytes) * mebi);
     if (!voxels.options().bits)
-        return fmt::format("voxels: {}, made there every frame\nclear {}, rasterise {}, trace {}", window, spent("voxels.clear"), spent("voxels.rasterise"), spent(".trace"));
+        return fmt::format("voxels: {}, voxelized there every frame\nclear {}, rasterise {}, trace {}", window, spent("voxels.clear"), spent("voxels.rasterise"), spent(".trace"));
     const std::string rest = v.progress < 1.0f ? fmt::format("building, {:.0f} %", 100.0f * v.progress)
-                                               : fmt::format("{} cells at rest in {:.2f} MiB of OpenVDB, {} in {:.0f} ms", v.resting.cells, double(v.resting.bytes) * mebi,
-                                                             v.resting.fromCache ? "read" : "made", v.resting.milliseconds);
-    return fmt::format("voxels: {}\n{} objects of {} cells in {:.2f} MiB, {} redone; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n{}, {:.1f} KiB sent last\n"
+                                               : fmt::format("{} static cells in {:.2f} MiB of OpenVDB, {} in {:.0f} ms", v.resting.cells, double(v.resting.bytes) * mebi,
+                                                             v.resting.fromCache ? "read from the cache" : "built", v.resting.milliseconds);
+    return fmt::format("voxels: {}\n{} moving objects of {} cells in {:.2f} MiB, {} rebuilt; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n{}, {:.1f} KiB in the last upload\n"
                        "upload {}, trace {}", rest, v.objects, v.objectCells, double(v.objectBytes) * mebi, v.redone, v.workerMilliseconds, v.waitMilliseconds, v.worstWait,
                        v.late, window, double(v.changedBytes) / 1024.0, spent("voxels.upload"), spent(".trace"));
 }
@@ -145,13 +145,13 @@ void Report::write(const std::filesystem::path& folder) const {
     for (const app::Series& pass : statistics.passes()) longest = std::max(longest, pass.median());
     for (const app::Series& pass : statistics.passes()) page += row(pass, longest);
     for (const app::Series* total : {&statistics.gpu(), &statistics.cpu(), &statistics.frame()}) page += row(*total, 0.0);
-    page += fmt::format("</table>\n<p>gpu: first to last timestamp of a frame; cpu: recording and submitting; frame: from one to the next, pictures "
-                        "written included. {} frames, the first {} left out.</p>\n<h2>Facts</h2>\n<dl>\n", frames, dropped);
+    page += fmt::format("</table>\n<p>gpu: first to last timestamp of a frame; cpu: recording and submitting; frame: from one to the next, writing "
+                        "of pictures included. {} frames, the first {} not timed.</p>\n<h2>Facts</h2>\n<dl>\n", frames, dropped);
     const std::pair<const char*, std::string> rows[] = {
         {"device", caps.deviceName},
         {"picture", fmt::format("{} x {}, guard band {:g}", options.size.width, options.size.height, options.guard)},
         {"method", settingsText(choice.values())},
-        {"right of the divider", options.compare ? settingsText(options.compare->values()) : "nothing else"},
+        {"right of the divider", options.compare ? settingsText(options.compare->values()) : "no second method"},
         {"falloff", falloffText(choice.falloff)},
         {"scene", stage.file},
         {"triangles", fmt::format("{} ({} drawn, {} draws)", facts.triangles, facts.drawn, facts.draws)},
@@ -160,7 +160,7 @@ void Report::write(const std::filesystem::path& folder) const {
                                double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi)},
         {"start", fmt::format("{:.2f} s: device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}", engine.started.total(),
                               engine.started.device, engine.started.scene, engine.started.pipelines, engine.started.warmUp,
-                              engine.started.cacheFound ? "found" : "not there yet")},
+                              engine.started.cacheFound ? "found" : "not found")},
         {"command", options.commandLine},
     };
     for (const auto& [term, text] : rows) page += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, escape(text));

@@ -1,4 +1,4 @@
-// What a headless run leaves behind: a table on the terminal, summary.html and timings.json.
+// Output of a headless run: a table on the terminal, summary.html and timings.json.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ struct ReportPicture {
     app::Picture final, visibility;
 };
 
-// What the voxels are, take and cost, in lines; times are medians of the passes that fill and trace the volume.
+// Size, memory and times of the voxels as lines of text; times are medians of the passes that fill and trace the volume.
 std::string voxelFacts(const voxel::Voxels& voxels, const app::Statistics& times);
 
 struct Report {
@@ -26,11 +26,11 @@ struct Report {
     const Stage& stage;
     const app::Statistics& statistics;
     uint32_t frames = 0;    // rendered
-    uint32_t dropped = 0;   // of these, left out of the times
+    uint32_t dropped = 0;   // of these, not timed
     std::vector<ReportPicture> pictures;
 
     std::string table() const;  // per-pass times as text
-    // Both files, each whole or not at all.
+    // Writes summary.html and timings.json, each by renaming a complete file.
     void write(const std::filesystem::path& folder) const;
 };
 

@@ -13,9 +13,9 @@ namespace obscura::game {
 
 namespace {
 
-constexpr float kFrame = 1.0f / 30.0f;   // what , and . step by, seconds
-constexpr size_t kMostWaiting = 3;       // frames, for the worker that measures
-constexpr float kGrab = 8.0f;            // screen units to either side of the divider
+constexpr float kFrame = 1.0f / 30.0f;   // step of the keys , and ., seconds
+constexpr size_t kMaxPending = 3;       // frames that may wait for the measuring worker
+constexpr float kGrab = 8.0f;            // distance from the divider at which it can be grabbed, screen units
 constexpr float kDividerStep = 0.02f;    // of the width
 
 }  // namespace
@@ -67,7 +67,7 @@ void Session::stepTime(float seconds) {
         return;
     }
     time = std::max(0.0f, time + seconds);
-    // One frame back or on is a movement like any other; histories stay good.
+    // A step of one frame is not a cut: histories stay valid.
 }
 
 void Session::setComparing(bool on) {
@@ -77,11 +77,11 @@ void Session::setComparing(bool on) {
 
 void Session::compareAct(Action action) {
     if (action == Action::compare) return setComparing(!comparing), say(comparing ? "A | B" : "A alone");
-    if (!comparing) return say("C splits the picture first");
+    if (!comparing) return say("Press C to compare first");
     switch (action) {
         case Action::nextOther: other.selectNext(1); return say(fmt::format("B: {}: {}", other.info().id, other.info().title));
         case Action::swapSides: {
-            const ao::Falloff falloff = choice.falloff;  // is both sides'
+            const ao::Falloff falloff = choice.falloff;  // shared by both sides
             std::swap(choice, other);
             choice.falloff = falloff;
             return;
@@ -114,7 +114,7 @@ void Session::follow(bool on) {
 }
 
 void Session::startReplay() {
-    if (replayFile.empty()) return say("nothing is recorded yet: R records, R again ends it");
+    if (replayFile.empty()) return say("no recorded path: press R to start and to stop recording");
     const scene::CameraPath& path = stage.pathOf(replayFile);
     replayStart = options.camera.replay && replayFile == options.camera.file && options.camera.start ? *options.camera.start : path.keys.front().time;
     follow(true);
@@ -142,9 +142,9 @@ void Session::stopRecording() {
 }
 
 std::string Session::referenceHint(const Measures::Reading& reading) const {
-    if (!replaying()) return "references belong to replayed paths: R records one, Y replays it";
-    if (!stage.info.toys.empty()) return "the game's own toasters are in no reference: start it with --bare";
-    if (stage.toys() > 0) return "dropped toasters are in no reference: Delete takes them away";
+    if (!replaying()) return "only replayed paths have references: R records one, Y replays it";
+    if (!stage.info.toys.empty()) return "references leave out the game's own toasters: start the game with --bare";
+    if (stage.toys() > 0) return "references leave out dropped toasters: Delete removes them";
     const scene::CameraPath& path = stage.pathOf(replayFile);
     const std::string from = replayStart == path.keys.front().time ? "" : fmt::format("@{}", replayStart);
     return fmt::format("obscura-flythrough --flythrough {}{} --length {} --size {}x{} --falloff {} --method none --filter raw --no-pictures --out out/references",
@@ -195,13 +195,13 @@ void Session::act(Action action, int key) {
         case Action::record:
             if (recorder.running()) return stopRecording();
             recorder.start(options.scene);
-            say(paused ? "recording the camera's path by the world's time: Space lets it run, R ends it" : "recording the camera's path; R ends it");
+            say(paused ? "recording the camera path; world time is paused: Space resumes it, R stops recording" : "recording the camera path; R stops");
             break;
         case Action::replay:
             if (replaying()) return follow(false), say("free camera");
             startReplay();
             break;
-        case Action::measure: measures = measures ? nullptr : std::make_shared<Measures>(kMostWaiting); break;
+        case Action::measure: measures = measures ? nullptr : std::make_shared<Measures>(kMaxPending); break;
         case Action::pause: paused = !paused; break;
         case Action::stepBack: stepTime(-kFrame); break;
         case Action::stepForward: stepTime(kFrame); break;
@@ -226,8 +226,8 @@ void Session::act(Action action, int key) {
             if (stage.dropToy(stage.floorAhead(m_camera), std::atan2(away.x, away.z), time))
                 say(fmt::format("{} of {} toasters dropped", stage.toys(), Stage::kMostToys));
             else
-                say(stage.hasToys() ? fmt::format("{} toasters are as many as there can be; Backspace takes one away", Stage::kMostToys)
-                                    : "toasters.glb is not there; build the project once, its generator makes it");
+                say(stage.hasToys() ? fmt::format("{} toasters is the maximum; Backspace removes one", Stage::kMostToys)
+                                    : "toasters.glb is missing; build the target content, which makes it");
             break;
         }
         case Action::removeToy: stage.removeToy(); say(fmt::format("{} toasters dropped", stage.toys())); break;
@@ -236,26 +236,26 @@ void Session::act(Action action, int key) {
 }
 
 void Session::advance(const app::Window& window, float seconds, bool keysTaken) {
-    constexpr float kLongest = 0.25f;  // seconds: after a hitch the world goes on, it does not jump
+    constexpr float kLongest = 0.25f;  // seconds; longest time step, so that a hitch does not make the world jump
     seconds = std::min(seconds, kLongest);
     if (m_replayed && !paused) {
         const scene::CameraPath& path = stage.pathOf(replayFile);
         const uint32_t frames = replayFrames(path, replayStart);
-        if (!path.loop && *m_replayed >= frames) {  // at its end, and time goes on
+        if (!path.loop && *m_replayed >= frames) {  // past the last frame: restart
             m_replayed = 0;
             cut = true;
         }
         time = replayTime(replayStart, (*m_replayed)++);
         if (!path.loop && *m_replayed == frames) {
             paused = true;
-            say("the path's last frame; Space flies it again, Y lets go");
+            say("last frame of the path; Space replays it again, Y stops the replay");
         }
     } else if (!paused) {
         time += seconds * pace;
     }
     if (!keysTaken) {
         player.update(window, seconds, stage.moveSpeed(), {stage.info.floor, stage.info.walkMin, stage.info.walkMax});
-        if (following && player.moved()) {  // whoever takes the controls flies
+        if (following && player.moved()) {  // camera input ends following
             follow(false);
         }
     }
@@ -264,7 +264,7 @@ void Session::advance(const app::Window& window, float seconds, bool keysTaken) 
 }
 
 render::FrameOptions Session::frame(VkExtent2D size) {
-    if (choice.current() != m_lastMethod) m_switchRounds = engine.device().framesInFlight();
+    if (choice.current() != m_lastMethod) m_switchIterations = engine.device().framesInFlight();
     m_lastMethod = choice.current();
     render::FrameOptions frame;
     frame.visible = size;
@@ -284,17 +284,17 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.sampleStep = measures ? measuredStep(size) : 0;
     frame.voxels = voxels;
     frame.slice = slice;
-    frame.voxels.exact = false;  // a frame behind, and no hitch
+    frame.voxels.exact = false;  // voxels may be one frame late; rendering does not wait for them
     cut = false;
     return frame;
 }
 
 void Session::measured(double milliseconds) {
-    constexpr uint64_t kSettling = 10;  // the window has just been opened
+    constexpr uint64_t kSettling = 10;  // first loop iterations, not counted
     if (++m_frames <= kSettling) return;
-    // With frames in flight, a late GPU shows only when a later round waits for it.
-    (m_switchRounds > 0 ? switches : steady).values.push_back(milliseconds);
-    if (m_switchRounds > 0) --m_switchRounds;
+    // With frames in flight, a long GPU frame delays a later iteration, which waits for it.
+    (m_switchIterations > 0 ? switches : steady).values.push_back(milliseconds);
+    if (m_switchIterations > 0) --m_switchIterations;
 }
 
 }  // namespace obscura::game

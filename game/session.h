@@ -1,4 +1,4 @@
-// What the player has done so far: the state between frames of the windowed game, changed by keys and panels alike.
+// State of the windowed game between frames; changed by keys and panels.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ class Session {
 public:
     Session(const Options& options, Stage& stage, Engine& engine);
 
-    Options options;  // as given; only its camera is used later on
+    Options options;  // of the command line; after construction only the camera is read
     Stage& stage;
     Engine& engine;
     Choice choice;
@@ -32,44 +32,44 @@ public:
     render::View view = render::View::final;
     std::string passView;
     float time = 0.0f;       // seconds, of the world
-    float pace = 1.0f;       // world seconds a second
+    float pace = 1.0f;       // world seconds per second
     float exposure = 1.0f, guard = 0.1f;
     render::Voxelization voxels;
     render::VoxelSlice slice;
     bool paused = false;
     bool following = false;  // the camera moves by itself: flythrough, path or lens
-    bool cut = true;         // the next frame's camera or time jumped
+    bool cut = true;         // camera or time of the next frame jumped: histories are discarded
     bool showOverlay = true, showKeys = false;
     bool wantsScreenshot = false, wantsFullScreen = false, wantsQuit = false;
-    std::string notice;      // one line, shown for a while
-    double noticeUntil = 0.0;
+    std::string notice;      // one line, shown until noticeUntil
+    double noticeUntil = 0.0;  // ms, of app::now()
     std::vector<std::string> passNames;  // of the last frame, for the view menu
 
     void act(Action action, int key);
-    // Moves time and camera on by so many real seconds.
+    // Advances time and camera by real seconds. `keysTaken`: a panel reads the keyboard.
     void advance(const app::Window& window, float seconds, bool keysTaken);
     scene::Camera camera() const { return m_camera; }
     render::FrameOptions frame(VkExtent2D size);
     void say(const std::string& line);
     void selectMethod(size_t index);
     void setComparing(bool on);
-    // A divider that is grabbed follows the pointer; grabbed it can be where no panel lies. True while it is.
+    // Moves the divider with the pointer while it is dragged; a drag starts outside the panels. True while it is dragged.
     bool dragDivider(const app::Window& window, bool onPanel);
-    std::string comparison() const;  // as options of the command line
-    void follow(bool on);    // the camera moves by itself; off: it is the player's, where it is
-    std::shared_ptr<Measures> measures;  // null: nothing is measured
-    // Why the measures have no reference, or the command that makes it.
+    std::string comparison() const;  // as command-line options
+    void follow(bool on);    // on: flythrough or path; off: the player controls the camera from its current place
+    std::shared_ptr<Measures> measures;  // null: measuring is off
+    // Why there is no reference for a reading, or the command that traces it.
     std::string referenceHint(const Measures::Reading& reading) const;
-    void startReplay();      // of options.camera's path, or of what was recorded last
-    void stopRecording();    // writes the file, if any key was recorded; says so, or what went wrong
+    void startReplay();      // of the path of options.camera, or of the last recorded one
+    void stopRecording();    // writes the file if a key was recorded; shows its name or the error
     bool replaying() const { return m_replayed.has_value(); }
     Recorder recorder;
-    // Of a replay: the path and where its frames begin.
+    // Of a replay: its path, and the time of its first frame, s.
     std::filesystem::path replayFile;
     float replayStart = 0.0f;
     void scrub(float to);    // jumps to a time
 
-    // Rounds of the loop right after another method was chosen, against all others, milliseconds.
+    // Milliseconds of loop iterations: of those right after a method switch, and of all others.
     app::Series switches{"switch", {}}, steady{"steady", {}};
     void measured(double milliseconds);
 
@@ -77,11 +77,11 @@ private:
     void stepTime(float seconds);
     void compareAct(Action action);
     bool m_dragging = false;
-    std::optional<uint32_t> m_replayed;  // the replay's frame that is shown next
+    std::optional<uint32_t> m_replayed;  // next frame of the replay
     scene::Camera m_camera;
     CameraChoice m_follow;
     size_t m_lastMethod;
-    uint32_t m_switchRounds = 0;  // rounds that still count as those of a switch
+    uint32_t m_switchIterations = 0;  // next loop iterations that count towards a switch
     uint64_t m_frames = 0;
 };
 

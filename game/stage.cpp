@@ -28,7 +28,7 @@ bool isToyRoot(const std::string& name) {
     return digits < lower.size() && std::all_of(lower.begin() + long(digits), lower.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The first node of a toy whose translation is animated: it carries the toy along, whatever stands above it.
+// The first node of a toy whose translation is animated: it moves the toy.
 int walkerOf(const scene::Model& model, int root) {
     for (const int node : scene::subtree(model, root))
         for (const scene::Animation& animation : model.animations)
@@ -77,7 +77,7 @@ void Stage::loadNamed(const SceneInfo& named, bool bare) {
     info = named;
     if (bare) info.toys.clear();
     const std::optional<fs::path> found = findContent(info.files);
-    if (!found) throw Complaint(fmt::format("--scene {}: {} is not there; {}", info.name, info.files.front(), info.howToGet));
+    if (!found) throw Complaint(fmt::format("--scene {}: {} is missing; {}", info.name, info.files.front(), info.howToGet));
     file = found->string();
     world.add({.model = scene::loadGltf(*found)});
     loadToys(!info.toys.empty());
@@ -95,8 +95,8 @@ void Stage::loadFile(const fs::path& path_) {
     info.title = path_.filename().string();
     world.add({.model = std::move(model)});
     bounds = scene::bounds(world, 0.0f);
-    if (bounds.empty) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", path_.string()));
-    // glTF counts in metres. Files that clearly do not are brought to a size one can walk around, by powers of ten.
+    if (bounds.empty) throw Complaint(fmt::format("--scene {}: contains nothing to draw; it needs at least one triangle", path_.string()));
+    // glTF lengths are metres. Files in other units are scaled by powers of ten until the radius is plausible.
     constexpr float kLargest = 120.0f, kSmallest = 0.25f;
     float scale = 1.0f;
     while (bounds.radius() * scale > kLargest) scale *= 0.1f;
@@ -118,18 +118,18 @@ void Stage::loadFile(const fs::path& path_) {
 }
 
 void Stage::loadToys(bool wanted) {
-    // The scene may be the toys themselves; then nothing is loaded twice.
+    // The scene may be toasters.glb itself; then its model is shared.
     const std::optional<fs::path> found = findContent(kToysFile);
     const scene::Instance& first = world.instances().front();
     if (found && found->string() == file) m_toys = first.model;
     else if (found) m_toys = scene::loadGltf(*found);
     if (!m_toys) {
-        if (wanted) remarks.push_back(fmt::format("{} is not there, so no toasters walk; build the project once, its generator makes it", kToysFile));
+        if (wanted) remarks.push_back(fmt::format("{} is missing, so the scene has no toasters; build the target content, which makes it", kToysFile));
         return;
     }
     for (const int node : m_toys->order)
         if (isToyRoot(m_toys->nodes[size_t(node)].name)) m_toyKinds.push_back({node, walkerOf(*m_toys, node), 1e9f});
-    // Toys hop, so the ground is where the feet are lowest.
+    // Toys hop: the ground is at the lowest position of the feet.
     const float duration = m_toys->animations.empty() ? 0.0f : m_toys->animations.front().duration;
     constexpr int kSamples = 32;
     for (int i = 0; i < kSamples; ++i) {
@@ -165,7 +165,7 @@ glm::vec3 Stage::freePlace(const glm::vec3& at) const {
 
 bool Stage::dropToy(const glm::vec3& wanted, float turn, float time) {
     if (!m_toys || m_dropped.size() >= kMostToys) return false;
-    // Each next toy is another one, at another moment of its walk, so that a crowd does not march in step.
+    // Successive toys differ in model and animation phase, so that they do not move in step.
     const glm::vec3 at = freePlace(wanted);
     const Toy& toy = m_toyKinds[m_dropped.size() % m_toyKinds.size()];
     const float offset = 1.37f * float(m_dropped.size());

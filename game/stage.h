@@ -1,4 +1,4 @@
-// The scene that is being played: its world, its toys, where its cameras stand.
+// The loaded scene: its world, its cameras, and the toasters (toys) that walk in it.
 #pragma once
 
 #include <memory>
@@ -22,28 +22,28 @@ public:
 
     scene::World world;
     SceneInfo info;
-    scene::CameraPath path;               // the flythrough; an orbit where a scene brings none
-    scene::Bounds bounds;                 // at time 0, of everything
+    scene::CameraPath path;               // the flythrough; an orbit if the scene has none
+    scene::Bounds bounds;                 // of the whole world at time 0
     std::vector<std::string> remarks;     // one line each, for the terminal
-    std::string file;                     // what was loaded
-    double loadSeconds = 0.0;             // that this took
+    std::string file;                     // path of the loaded glTF file
+    double loadSeconds = 0.0;             // loading time
 
     scene::Camera startCamera() const;
     // The path of --camera path: or --path, read once. Throws app::Complaint.
     const scene::CameraPath& pathOf(const std::filesystem::path& file);
-    // The camera that an option asks for, at a time.
+    // The camera of an option at a time.
     scene::Camera camera(const CameraChoice& choice, float time);
-    bool moves(const CameraChoice& choice) const;  // does it change over time by itself?
+    bool moves(const CameraChoice& choice) const;  // the camera changes over time without input
 
-    // Drops a toy that stands at `at` (its height is the floor's), or beside those dropped there before, at this time and
-    // walks on from there. False at the limit or without toasters.glb.
+    // Adds a toy that stands at `at` on the floor at this time, or at the nearest free place, and walks from there. False if kMostToys are
+    // dropped or toasters.glb is missing.
     bool dropToy(const glm::vec3& at, float turn, float time);
-    void dropToys(uint32_t count, float time);  // around the place the first camera looks at
+    void dropToys(uint32_t count, float time);  // around the floor point that the start camera looks at
     void removeToy();
     void clearToys();
     size_t toys() const { return m_dropped.size(); }
     bool hasToys() const { return m_toys != nullptr; }
-    // Where a ray meets the floor, or the point ahead when it does not.
+    // Intersection of the view ray with the floor, or a point on the floor ahead if there is none nearby.
     glm::vec3 floorAhead(const scene::Camera& camera) const;
     float moveSpeed() const;  // metres a second that suit the scene's size
 
@@ -54,8 +54,8 @@ private:
     void placeGroup(const ToyGroup& group);
     glm::vec3 freePlace(const glm::vec3& at) const;
     std::shared_ptr<const scene::Model> m_toys;
-    // A toy of m_toys: the node whose subtree it is, the node that carries it along (between its feet), and the lowest
-    // height at which that ever is.
+    // A toy of m_toys: root node of its subtree, the animated node between its feet that moves it, and the lowest height of that node over
+    // the animation.
     struct Toy {
         int root, feet;
         float ground;
@@ -67,7 +67,7 @@ private:
     };
     std::vector<Dropped> m_dropped;
     scene::CameraPath m_chosenPath;
-    std::filesystem::path m_chosenFile;  // that it was read from
+    std::filesystem::path m_chosenFile;  // of m_chosenPath
 };
 
 // "name  title  where" lines of the manifest.

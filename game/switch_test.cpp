@@ -1,3 +1,4 @@
+// --switch-test: frame times right after a method switch, compared with steady frames.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@ namespace obscura::game {
 
 namespace {
 
-// One frame from beginning to end, on CPU and GPU, in milliseconds.
+// Milliseconds of one frame from recording to the GPU's completion.
 double wholeFrame(const Options& options, Engine& engine, Stage& stage, const ao::Values& values, float time) {
     const double begun = app::now();
     engine.expect(engine.frames().begin(engine.graph()), "testing switches");
@@ -37,7 +38,7 @@ void switchTest(const Options& options, Engine& engine, Stage& stage) {
     constexpr uint32_t kRounds = 4;
     std::vector<std::vector<double>> own(methods);  // steady frames
     std::vector<std::vector<double>> at(methods);   // frames at a switch
-    std::vector<double> first(methods);             // the very first at this size
+    std::vector<double> first(methods);             // first frames at this size, which allocate
     std::vector<ao::Values> values;
     for (const ao::MethodInfo* info : ao::methods()) values.emplace_back(*info);
     float time = options.time;
@@ -48,7 +49,7 @@ void switchTest(const Options& options, Engine& engine, Stage& stage) {
             for (uint32_t i = 0; i < steady + 2; ++i, time += options.step) {
                 const double ms = wholeFrame(options, engine, stage, values[m], time);
                 if (i >= 2) own[m].push_back(ms);
-                else first[m] = std::max(first[m], ms);  // these allocate
+                else first[m] = std::max(first[m], ms);
                 progress.at(++done, values[m].info().id);
             }
         for (uint32_t round = 0; round < kRounds; ++round)
@@ -57,7 +58,7 @@ void switchTest(const Options& options, Engine& engine, Stage& stage) {
                 progress.at(++done, values[m].info().id);
             }
     }
-    fmt::print("{:<20} {:>12} {:>12} {:>16} {:>12}\n", "method", "median, ms", "first", "worst at switch", "more by");
+    fmt::print("{:<20} {:>12} {:>12} {:>16} {:>12}\n", "method", "median, ms", "first", "worst at switch", "excess");
     std::vector<double> allSteady, allSwitches, excess;
     for (size_t m = 0; m < methods; ++m) {
         const double median = app::percentile(own[m], 0.5), worst = app::percentile(at[m], 1.0);

@@ -1,4 +1,4 @@
-// The game in its window.
+// The windowed game: its loop, screenshots and shader reload.
 #include <algorithm>
 #include <chrono>
 
@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kReloadEvery = 250.0;  // milliseconds between looks at edited shaders
-constexpr double kIdleWait = 0.1;       // seconds, while there is nothing to draw into
+constexpr double kReloadEvery = 250.0;  // milliseconds between checks for edited shaders
+constexpr double kIdleWait = 0.1;       // seconds, while the window has no image to draw into
 
 class Game {
 public:
@@ -40,10 +40,10 @@ private:
     Session m_session;
     std::unique_ptr<app::Overlay> m_overlay;
     std::vector<std::string> m_shaderErrors;  // as last printed
-    uint64_t m_firstFrame = 0;  // the warm-up's are not for the plots
+    uint64_t m_firstFrame = 0;  // timings of earlier frames (warm-up) are not plotted
     uint64_t m_shown = 0;
     bool m_overlayTried = false;
-    bool m_idle = false;      // the last round drew nothing
+    bool m_idle = false;      // the last iteration drew nothing
     double m_lastFrame = 0.0;
 };
 
@@ -51,7 +51,7 @@ void Game::makeOverlay(VkFormat format) {
     m_overlayTried = true;
     std::string error;
     m_overlay = app::Overlay::create(m_engine.device(), m_window, format, error);
-    if (!m_overlay) fmt::print(stderr, "obscura: {}; the game goes on without panels\n", error);
+    if (!m_overlay) fmt::print(stderr, "obscura: {}; the game continues without panels\n", error);
 }
 
 void Game::takeScreenshot(graph::Graph& graph, graph::ImageId picture, fs::path file, bool last) {
@@ -62,7 +62,7 @@ void Game::takeScreenshot(graph::Graph& graph, graph::ImageId picture, fs::path 
             fmt::print("wrote {}\n", file.string());
             std::fflush(stdout);
         } catch (const app::Complaint& complaint) {
-            if (last) throw;  // asked for on the command line: the exit code must tell
+            if (last) throw;  // requested on the command line: reported by the exit code
             m_session.say(complaint.what());
             fmt::print(stderr, "obscura: {}\n", complaint.what());
         }
@@ -128,7 +128,7 @@ void Game::run() {
         if (m_session.wantsQuit) break;
         if (m_session.wantsFullScreen) m_window.toggleFullScreen();
         m_session.wantsFullScreen = false;
-        // Looking around begins outside the panels and then goes on wherever the hidden pointer is.
+        // Mouse look starts outside the panels and continues over them, with the pointer hidden.
         const bool onPanel = m_overlay && m_overlay->wantsMouse();
         m_session.dragDivider(m_window, onPanel);
         m_window.captureMouse(m_window.button(GLFW_MOUSE_BUTTON_RIGHT) && (m_window.mouseCaptured() || !onPanel));
@@ -144,7 +144,7 @@ void Game::run() {
         const bool wasIdle = m_idle;
         drawFrame();
         if (!m_idle && !wasIdle) {
-            // The whole round: with a frame in flight a hitch may show one round later, at the wait.
+            // The whole iteration: with frames in flight a hitch may show in a later one, at its wait.
             m_session.statistics.addCpu(m_engine.frames().recordMilliseconds(), since);
             m_session.measured(app::now() - begun);
         }
@@ -164,7 +164,7 @@ int playWindowed(const Options& options) {
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
     std::string error;
     auto window = app::Window::open("Obscura", int(options.size.width), int(options.size.height), error);
-    if (!window) return flyInstead(options, "no window: " + error);
+    if (!window) return runWithoutWindow(options, "no window: " + error);
 
     Stage stage(options.scene, options.bare);
     stage.camera(options.camera, options.time);
@@ -175,12 +175,12 @@ int playWindowed(const Options& options) {
     if (!presenter) {
         engine.reset();
         window.reset();
-        return flyInstead(options, error);
+        return runWithoutWindow(options, error);
     }
     engine->prepare(options, stage, true);
     fmt::print("{}: {} on {}, {} methods; started in {:.2f} s (pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}). F1 shows the keys.\n",
                "Obscura", stage.info.title, engine->device().caps().deviceName, Choice::count(), engine->started.total(),
-               engine->started.pipelines, engine->started.warmUp, engine->started.cacheFound ? "found" : "not there yet");
+               engine->started.pipelines, engine->started.warmUp, engine->started.cacheFound ? "found" : "not found");
     std::fflush(stdout);
     if (options.switchTest) {
         switchTest(options, *engine, stage);
@@ -188,7 +188,7 @@ int playWindowed(const Options& options) {
         if (options.fullScreen) window->toggleFullScreen();
         Game(options, *window, *presenter, *engine, stage).run();
     }
-    const int code = closingWords(options, *engine);
+    const int code = reportValidation(options, *engine);
     presenter.reset();
     return code;
 }

@@ -1,4 +1,4 @@
-// Runs programs through the shell as a user does: arguments are quoted, so that paths may hold spaces, quotes and letters of any alphabet.
+// Runs programs through the shell. Arguments are quoted, so paths may contain spaces, quotes and non-ASCII letters.
 #pragma once
 
 #include <cstdlib>
@@ -13,7 +13,7 @@
 
 namespace obscura::test {
 
-// One word of a POSIX shell.
+// Quotes a string as one word of a POSIX shell.
 inline std::string quoted(std::string_view text) {
     std::string word = "'";
     for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -39,7 +39,7 @@ template <class... Arguments> std::string shellCommand(std::string_view format, 
 
 struct Ended {
     int code = -1;            // exit code; -1: ended by a signal
-    std::string out, error;   // what it wrote
+    std::string out, error;   // stdout and stderr
     size_t errorLines() const {
         size_t count = 0;
         for (const char c : error) count += c == '\n';
@@ -47,7 +47,7 @@ struct Ended {
     }
 };
 
-// Runs a command line and waits for its end.
+// Runs a command line and waits until it exits.
 inline Ended runShell(const std::string& line) {
     namespace fs = std::filesystem;
     std::string name = (fs::temp_directory_path() / "obscura-shell.XXXXXX").string();

@@ -1,4 +1,4 @@
-# Writes a page's files (NAME.html, .css, .js) as C++ strings of a namespace, its style and script after those in page/base.* here:
+# Writes a page's files (NAME.html, .css, .js) as C++ strings in a namespace; with BASE, style and script follow those of page/base.*:
 #   cmake -DPAGE=folder -DNAME=gallery -DNAMESPACE=obscura::evaluate -DOUT=page.cpp [-DBASE=ON] -P embed_page.cmake
 set(text "// Generated from ${NAME}.html, .css and .js. Do not edit.\n#include \"page.h\"\n\nnamespace ${NAMESPACE} {\n\n")
 foreach(kind html css js)
@@ -10,7 +10,7 @@ foreach(kind html css js)
     file(READ ${CMAKE_CURRENT_LIST_DIR}/page/base.${kind} shared)
   endif()
   file(READ ${PAGE}/${NAME}.${kind} content)
-  # Two literals: compilers bound the length of one.
+  # Two literals, because compilers limit the length of one.
   string(APPEND text "const char* const kPage${first}${rest} = R\"~page~(${shared})~page~\"\nR\"~page~(${content})~page~\";\n\n")
 endforeach()
 file(WRITE ${OUT} "${text}}  // namespace ${NAMESPACE}\n")

@@ -1,6 +1,5 @@
-// Linear depth at five resolutions, for methods that take far samples from coarse levels so that they stay in the cache
-// [McGuire 2012, sec. 2.2]. One R32F image holds them all, since fetching from it is an imageLoad; ao/common/depth_mips.glsl
-// says where.
+// Linear depth at five resolutions, for methods whose distant samples read coarse levels to stay in the cache [McGuire 2012, sec. 2.2].
+// One R32F image holds all levels, so that shaders read it with imageLoad; layout: ao/common/depth_mips.glsl.
 #pragma once
 
 #include "ao/method.h"
@@ -9,12 +8,12 @@ namespace obscura::ao {
 
 class DepthMips {
 public:
-    enum class Filter : uint32_t { oneOfFour, farthest };  // farthest: the mean of those near the farthest, as XeGTAO has it
+    enum class Filter : uint32_t { oneOfFour, farthest };  // farthest: mean of the texels near the farthest [XeGTAO]
     static constexpr float kFade = 0.615f;  // XeGTAO's
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Filter filter, DepthMips& out);
-    // Of an image that holds all levels of pictures of this size.
+    // Description of the image that holds all levels for buffers of this size.
     static gpu::ImageDesc desc(VkFormat format, shared::uvec2 size);
-    // range, fade: of `farthest`. A depth counts by clamp((range - how much nearer than the farthest it is) / (fade range), 0, 1); metres.
+    // range, fade: of `farthest`. A depth d has weight clamp((range - (farthest - d)) / (fade range), 0, 1); metres.
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const char* passName, float range = 1.0f, float fade = kFade);
 
 private:

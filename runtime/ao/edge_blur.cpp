@@ -2,7 +2,7 @@
 
 namespace obscura::ao {
 namespace {
-constexpr float kCentre = 1.2f, kOff = 1e4f;  // weight of the pixel itself: as published, and one that leaves nothing to neighbours
+constexpr float kCentre = 1.2f, kOff = 1e4f;  // weight of the pixel itself: as published; so large that neighbours do not count
 }
 
 Status EdgeBlur::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, EdgeBlur& out) {
@@ -15,9 +15,9 @@ graph::ImageId EdgeBlur::add(graph::Graph& graph, graph::ImageId noisy, bool on,
     const uint32_t width = graph.desc(noisy).width, height = graph.desc(noisy).height;
     const graph::ImageId visibility = graph.image(passName, {VK_FORMAT_R16_SFLOAT, width, height});
     for (uint32_t last = on ? 0 : 1; last < 2; ++last) {
-        const graph::ImageId again = graph.image("blurred once", {VK_FORMAT_R32_UINT, last ? 1 : width, last ? 1 : height});
-        graph.pass(passName, m_blur[last]).read(noisy).write(again).write(visibility).constants(on ? kCentre : kOff).dispatch(width, height);
-        noisy = again;
+        const graph::ImageId intermediate = graph.image("blurred once", {VK_FORMAT_R32_UINT, last ? 1 : width, last ? 1 : height});
+        graph.pass(passName, m_blur[last]).read(noisy).write(intermediate).write(visibility).constants(on ? kCentre : kOff).dispatch(width, height);
+        noisy = intermediate;
     }
     return visibility;
 }

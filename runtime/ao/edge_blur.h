@@ -1,5 +1,5 @@
-// XeGTAO's spatial denoiser: a 3x3 blur that edges of depth cut, twice, which makes 5x5. For yardsticks that are published with it; our
-// own methods blur along the surface (resolve.h).
+// XeGTAO's spatial denoiser: a 3x3 blur that stops at depth edges, applied twice (5x5). For the baseline methods published with it; other
+// methods use Denoise, which is weighted by depth and normal.
 #pragma once
 
 #include "ao/method.h"
@@ -9,11 +9,11 @@ namespace obscura::ao {
 class EdgeBlur {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, EdgeBlur& out);
-    // noisy: R32UI, visible size, as ao/common/edges.glsl packs it. Returns visibility, R16F; as it was (to 0.001) when not `on`.
+    // noisy: R32UI, visible size, packed by ao/common/edges.glsl. Returns visibility, R16F; not `on`: unblurred, to 0.001.
     graph::ImageId add(graph::Graph& graph, graph::ImageId noisy, bool on, const char* passName);
 
 private:
-    gpu::Program m_blur[2];  // to blur again, last
+    gpu::Program m_blur[2];  // first pass, last pass
 };
 
 }  // namespace obscura::ao

@@ -1,4 +1,4 @@
-// Which formats a frame's images may have, for each part that they play: what the passes that read them can make sense of.
+// Formats that a frame's images may have, by role.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace obscura::ao {
 enum class Role : uint8_t { deviceDepth, linearDepth, signedNormals, unsignedNormals, packedNormals, motion, thickness, second };
 
 bool fits(Role role, VkFormat format);
-const char* formatsOf(Role role);         // in words
-uint32_t leastBytes(VkFormat format);     // that a texel takes at least, of formats that fit any role
+const char* formatsOf(Role role);         // "D16, D24, D32 or R32F"
+uint32_t leastBytes(VkFormat format);     // bytes of a texel, at least; 0 for formats that fit no role
 
 }  // namespace obscura::ao

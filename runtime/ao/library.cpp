@@ -1,6 +1,7 @@
 #include "ao/library.h"
 
-#include <cstring>
+#include <algorithm>
+#include <array>
 
 namespace obscura::ao {
 namespace {
@@ -22,23 +23,22 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 }  // namespace
 
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
-    m_ready = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
+    m_valid = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
 }
 
 Library::~Library() = default;
 
-bool Library::prepare(const MethodInfo& info) {
-    if (!m_ready) return false;
-    for (size_t i = 0; i < registry().size(); ++i) {
-        if (registry()[i].info != &info) continue;
-        if (!m_methods[i]) m_methods[i] = registry()[i].create(m_device, m_shaders);
-        return m_methods[i] != nullptr;
-    }
-    return false;
+bool Library::prepare(const MethodInfo& info) { return makeMethod(Values(info)); }
+
+bool Library::makeMethod(const Values& values) {
+    if (!m_valid || values.index() == Values::kUnregistered) return false;
+    std::unique_ptr<Method>& method = m_methods[values.index()];
+    if (!method) method = registry()[values.index()].create(m_device, m_shaders);
+    return method != nullptr;
 }
 
 bool Library::prepare(const Values& values) {
-    if (!prepare(values.info())) return false;
+    if (!makeMethod(values)) return false;
     if (m_offScreen || !values.has("offscreen") || OffScreen(values.count("offscreen")) == OffScreen::off) return true;
     auto made = std::make_unique<OffScreenPass>();
     if (OffScreenPass::create(m_device, m_shaders, *made) != Status::ok) return false;
@@ -46,8 +46,7 @@ bool Library::prepare(const Values& values) {
     return true;
 }
 
-graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values,
-                            Inputs* inputsOut) {
+Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values) {
     shared::View view;
     const char* reason = nullptr;
     if (viewOf(frame, view, reason) != Status::ok) {
@@ -61,42 +60,29 @@ graph::ImageId Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     }
     if (!prepare(values)) return {};
     view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
-    if (m_last != &values.info() && !graph.rehearsal()) {
-        reset();
-        m_last = &values.info();
-    }
+    const bool discard = frame.cut || m_last != &values.info();
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
     if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure};
-    const LayerUse use = layersOf(values);
-    if (use != LayerUse::none) inputs.layers.thickness = sources.layers.thickness;
-    if (use > LayerUse::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;
-    previousFromEye(frame.eyeFromWorld, m_hasLast ? m_eyeFromWorld : frame.eyeFromWorld, inputs.previousFromEye);
-    if (!graph.rehearsal()) {
-        std::memcpy(m_eyeFromWorld, frame.eyeFromWorld, sizeof(m_eyeFromWorld));
-        m_hasLast = true;
-    }
-    if (inputsOut) *inputsOut = inputs;
-    graph::ImageId visibility;
-    for (size_t i = 0; i < registry().size(); ++i) {
-        if (registry()[i].info != &values.info()) continue;
-        visibility = m_methods[i]->add(graph, inputs, values);
-        const bool tracesItself = registry()[i].needs && (registry()[i].needs(values) & kVolume);
-        if (visibility && m_offScreen && values.has("offscreen") && !tracesItself)
-            visibility = m_offScreen->add(graph, inputs, visibility, m_methods[i]->blocking(inputs, values),
-                                         {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
-    }
-    if (!visibility || !values.info().needs) return visibility;
+    const LayerMode use = layerModeOf(values);
+    if (use != LayerMode::none) inputs.layers.thickness = sources.layers.thickness;
+    if (use > LayerMode::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;
+    previousFromEye(frame.eyeFromWorld, discard ? frame.eyeFromWorld : m_eyeFromWorld, inputs.previousFromEye);
+    graph.onRecorded([this, info = &values.info(), eye = std::to_array(frame.eyeFromWorld)] {
+        m_last = info;
+        std::copy(eye.begin(), eye.end(), m_eyeFromWorld);
+    });
+    const Method& method = *m_methods[values.index()];
+    const MethodEntry& entry = registry()[values.index()];
+    graph::ImageId visibility = m_methods[values.index()]->add(graph, inputs, values);
+    const bool tracesItself = entry.needs && (entry.needs(values) & kVolume);
+    if (visibility && m_offScreen && values.has("offscreen") && !tracesItself)
+        visibility = m_offScreen->add(graph, inputs, visibility, method.blocking(inputs, values),
+                                     {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
+    if (!visibility || !values.info().needs) return {visibility, inputs};
     TemporalSettings temporal;
     temporal.history = values["temporal"];
     temporal.clip = values["temporal_clip"];
-    return m_temporal.add(graph, inputs, visibility, temporal, "resolve.temporal");
-}
-
-void Library::reset() {
-    m_hasLast = false;
-    m_temporal.reset();
-    for (auto& method : m_methods)
-        if (method) method->reset();
+    return {m_temporal.add(graph, inputs, visibility, temporal, discard, "resolve.temporal"), inputs};
 }
 
 }  // namespace obscura::ao

@@ -1,16 +1,16 @@
-// For methods whose published form has a falloff of its own and only a radius to set: the mean distance to which a falloff lets
-// occluders count. A radius is right for a falloff when both means agree.
+// Integral of a falloff over distance, for methods whose published form has a fixed falloff and only a radius. The radius matches a
+// falloff when both integrals are equal.
 #pragma once
 
 #include "obscura/ao.h"
 
 namespace obscura::ao {
 
-inline float meanReach(const Falloff& falloff) {  // metres: the integral of rho
-    constexpr int kParts = 256;
+inline float meanReach(const Falloff& falloff) {  // metres
+    constexpr int kSteps = 256;
     double sum = 0.0;
-    for (int i = 0; i < kParts; ++i) sum += evaluate(falloff, (float(i) + 0.5f) / float(kParts) * reach(falloff));
-    return float(sum / kParts) * reach(falloff);
+    for (int i = 0; i < kSteps; ++i) sum += evaluate(falloff, (float(i) + 0.5f) / float(kSteps) * reach(falloff));
+    return float(sum / kSteps) * reach(falloff);
 }
 
 }  // namespace obscura::ao

@@ -15,11 +15,11 @@ struct Trace {  // trace.comp
 };
 
 constexpr uint32_t kScale = 2;      // a map of a quarter of the pixels
-constexpr float kOffset = 2.0f;     // cells; a plane's own conservative cells end sqrt(3) above it
-constexpr float kGrain = 1.25f;     // cells: finer noise would not rest under the map's pixels, coarser shows as blots
+constexpr float kOffset = 2.0f;     // cells; the cells that touch a plane end sqrt(3) above it
+constexpr float kGrain = 1.25f;     // cells: finer noise flickers as the camera moves, coarser shows as blotches
 constexpr float kWindow = 16.0f;    // px
 constexpr float kRange = 0.25f;     // of the falloff's reach
-constexpr float kFarthest = 1e18f;  // its square is a float
+constexpr float kFarthest = 1e18f;  // its square fits in a float
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shad
     if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_trace[1]) != gpu::Status::ok) return Status::shaderError;
     if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_layers.comp", {}, out.m_layered[0]) != gpu::Status::ok) return Status::shaderError;
     if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb_layers.comp", {}, out.m_layered[1]) != gpu::Status::ok) return Status::shaderError;
-    if (SpansPass::create(device, shaders, out.m_spans) != Status::ok) return Status::shaderError;
+    if (LayerPass::create(device, shaders, out.m_layerPass) != Status::ok) return Status::shaderError;
     return Upsample::create(device, shaders, out.m_upsample);
 }
 
@@ -36,8 +36,8 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
                                   const OffScreenSettings& settings) {
     if (settings.what == OffScreen::off) return visibility;
     if (!inputs.volume) {
-        if (!std::exchange(m_said, true))
-            graph.device().log(gpu::Severity::warning, "offscreen: the frame brings no volume, so only what the picture shows is counted");
+        if (!std::exchange(m_warned, true))
+            graph.device().log(gpu::Severity::warning, "offscreen: the frame has no volume (Frame::volume); only occluders in the image count");
         return visibility;
     }
     const auto& visible = inputs.view.visible;
@@ -46,10 +46,10 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
     const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
                       std::min(blocking.reach, kFarthest), blocking.thickness};
-    const graph::ImageId spans = blocking.sheet >= 0.0f ? m_spans.add(graph, inputs, blocking.sheet) : graph::ImageId{};
-    graph::Pass& pass = graph.pass("offscreen.trace", (spans ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
+    const graph::ImageId layers = blocking.sheet >= 0.0f ? m_layerPass.add(graph, inputs, blocking.sheet) : graph::ImageId{};
+    graph::Pass& pass = graph.pass("offscreen.trace", (layers ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
     pass.read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth).read(inputs.normals).write(map).write(receivers);
-    if (spans) pass.read(spans);
+    if (layers) pass.read(layers);
     pass.constants(trace).dispatch(width, height);
     return m_upsample.add(graph, inputs, {map, receivers}, {kScale, kWindow, kRange * inputs.falloff.reach}, "offscreen", visibility);
 }

@@ -49,9 +49,8 @@ Inputs Prepare::add(graph::Graph& graph, const Frame& frame, const shared::View&
     graph.pass("prepare.depth", m_linearize).read(inputs.viewBlock).read(sources.depth).write(inputs.depth).constants(linear)
         .dispatch(view.size.x, view.size.y);
 
-    if (sources.normals && frame.normalEncoding == NormalEncoding::octahedral32 && frame.normalKind == NormalKind::eye &&
-        graph.isTransient(sources.normals)) {
-        inputs.normals = sources.normals;  // the sample's own G-buffer: packed already
+    if (sources.packed) {
+        inputs.normals = sources.normals;
         return inputs;
     }
     inputs.normals = graph.image("packed normals", {VK_FORMAT_R32_UINT, view.size.x, view.size.y});

@@ -1,29 +1,21 @@
-// Turns whatever a host or the sample has into what every method reads: linear depth and packed eye-space normals.
+// Prepares a frame's images for the methods: linear depth and packed eye-space normals.
 #pragma once
 
 #include "ao/method.h"
+#include "ao/view.h"
 
 namespace obscura::ao {
 
-// The frame's images as they stand in the graph; formats and encodings are said by the Frame beside them.
+// The frame's images in the graph. Formats and encodings are those of the Frame.
 struct Sources {
     graph::ImageId depth;
     graph::ImageId normals;  // none: reconstructed from depth
     graph::ImageId motion;   // none: no motion; scaled as the Frame says
     bool direct = false;     // depth and normals have the form of Inputs already and may be storage images: taken as they are
-    LayerSources layers;     // none: no depth layers
+    LayerInputs layers;     // none: no depth layers
     graph::BufferId volume;  // none: no volume; bits as Frame::volume describes them
+    bool packed = false;     // normals have the form of Inputs already
 };
-
-// The view that a frame's size, guard band and projection describe. The depth convention (standard, reversed, infinite,
-// orthographic, off-centre, flipped y) is read off the matrix. Status::invalid with a reason when it is no projection.
-Status viewOf(const Frame& frame, shared::View& view, const char*& reason);
-
-// The volume block that Frame::volume describes, its buffer aside. Status::invalid with a reason when it is no volume.
-Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason);
-
-// Linear depth of sky in Inputs::depth; view.skyDepth is at most this.
-inline constexpr float kSkyDepth = 1.0e8f;
 
 class Prepare {
 public:

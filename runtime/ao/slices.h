@@ -1,4 +1,4 @@
-// Parameters of methods that search slices of the hemisphere through the view ray as XeGTAO does (shaders/ao/common/slice.glsl).
+// Parameters shared by methods that search slices of the hemisphere through the view ray, as XeGTAO does (shaders/ao/common/slice.glsl).
 #pragma once
 
 #include "ao/method.h"
@@ -9,14 +9,20 @@ enum class SliceBlur : uint32_t { none, edges, surface };
 inline constexpr const char* kSliceAxes[] = {"screen", "view ray"};
 inline constexpr const char* kSliceBlurs[] = {"none", "edges", "surface"};
 
-inline constexpr Parameter kSlices{"slices", "", 1, 32, 3, true, {}, "Slices of the hemisphere through the view ray; cost grows with slices x steps."};
-inline constexpr Parameter kSliceSteps{"steps", "", 1, 32, 3, true, {}, "Samples to each side of a slice, out to the falloff's reach."};
+inline constexpr Parameter kSlices{"slices", "", 1, 32, 3, true, {},
+    "Slices of the hemisphere around the view ray. Cost grows with slices x steps. Too few: noise."};
+inline constexpr Parameter kSliceSteps{"steps", "", 1, 32, 3, true, {},
+    "Samples to each side of a slice, out to the falloff's reach. Cost grows with slices x steps. Too few: thin objects are missed."};
 inline constexpr Parameter kSliceAxis{"axis", "", 0, 1, 0, true, {kSliceAxes, 2},
-                                      "Where slices lie evenly: on the screen as published, or around each pixel's view ray, which is right off the picture's centre."};
-inline constexpr Parameter kSliceMipOffset{"mip_offset", "", 0, 30, 3.3f, false, {}, "Samples farther than 2 to this, px, come from coarser depths: kinder to caches, softer."};
-inline constexpr Parameter kSliceDenoise{"denoise", "", 0, 2, 1, true, {kSliceBlurs, 3}, "5x5 over the noise: cut at edges of depth as published, or along the surface."};
+    "How slices are spaced: evenly on the screen, as published, or evenly around each pixel's view ray. On the screen they are uneven "
+    "away from the image centre."};
+inline constexpr Parameter kSliceMipOffset{"mip_offset", "", 0, 30, 3.3f, false, {},
+    "Samples farther than 2^this px read coarser depth levels. Lower is faster; too low: distant thin occluders blur."};
+inline constexpr Parameter kSliceDenoise{"denoise", "", 0, 2, 1, true, {kSliceBlurs, 3},
+    "5x5 blur that removes the noise: stopped at depth edges, as published, or weighted by depth and normal. None: noise shows; "
+    "otherwise details of a few pixels soften."};
 
-// XeGTAO's presets; its high is the initial values.
+// XeGTAO's presets; its preset high is the parameters' initial values.
 inline constexpr Setting kSlicesLow[] = {{"slices", 1}, {"steps", 2}};
 inline constexpr Setting kSlicesMedium[] = {{"slices", 2}, {"steps", 2}};
 inline constexpr Setting kSlicesUltra[] = {{"slices", 9}};

@@ -14,11 +14,11 @@ struct ColumnConstants { uint32_t columns, rows; };
 
 }  // namespace
 
-Status SummedArea::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SummedArea& out, uint32_t parts) {
-    if (parts == 0) parts = device.caps().software ? 1 : 16;
+Status SummedArea::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SummedArea& out, uint32_t blocks) {
+    if (blocks == 0) blocks = device.caps().software ? 1 : 16;
     const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/common/sum_rows.comp", &out.m_rows}, {"ao/common/sum_columns.comp", &out.m_columns}};
     for (const auto& [name, program] : programs)
-        if (gpu::Program::compute(device, shaders, name, {{0, parts}}, *program) != gpu::Status::ok) return Status::shaderError;
+        if (gpu::Program::compute(device, shaders, name, {{0, blocks}}, *program) != gpu::Status::ok) return Status::shaderError;
     return Status::ok;
 }
 

@@ -1,5 +1,5 @@
-// Summed-area tables [Crow 1984] of four 32-bit channels: two passes of prefix sums, along rows and down columns. Integers
-// are modular: a window's sum is right whenever that sum itself fits in 32 bits, however far the table has wrapped around.
+// Summed-area tables [Crow 1984] of four 32-bit channels: two passes of prefix sums, along rows and down columns. Integers wrap modulo
+// 2^32: a window's sum is exact if that sum itself fits in 32 bits, even if table entries have wrapped.
 //
 // Layout. Texels: uvec4, rows of size.x, tightly packed. Table: (size.x + 1) x (size.y + 1) entries of `layers` uvec4 each;
 // entry (x, y) holds for each layer the sum of the texels left of x and above y, so row 0 and column 0 are zero and the
@@ -18,12 +18,12 @@ public:
     struct Layer { uint32_t mask, value; };
     static constexpr uint32_t kMostLayers = 4;
 
-    // parts: into how many pieces a line is cut, each an invocation's; 1..16, 0: what suits the device.
-    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SummedArea& out, uint32_t parts = 0);
+    // blocks: number of invocations that share a line, 1 to 16; 0: 1 on software devices, else 16.
+    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SummedArea& out, uint32_t blocks = 0);
     static uint64_t bytes(shared::uvec2 size, size_t layers) { return uint64_t(size.x + 1) * (size.y + 1) * layers * 16; }
 
-    // Fills `table`, of bytes(size, layers), in passes "NAME rows" and "NAME columns". `codes`: one uint a texel; none: every
-    // texel counts, and there is one layer.
+    // Fills `table`, of bytes(size, layers), in passes "NAME rows" and "NAME columns". `codes`: one uint a texel. Without codes there is
+    // one layer, of all texels.
     void add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId table, shared::uvec2 size);
     void add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId codes, graph::BufferId table,
              shared::uvec2 size, std::span<const Layer> layers);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ao/prepare.h"
+#include "ao/view.h"
 
 namespace obscura::ao {
 
@@ -13,12 +13,12 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
     const uint32_t width = frame.size.width, height = frame.size.height;
     const auto fail = [&](const char* why) { reason = why; return Status::invalid; };
     if (width == 0 || height == 0) return fail("Frame::size is zero");
-    if (2 * uint64_t(frame.guard.width) >= width || 2 * uint64_t(frame.guard.height) >= height) return fail("Frame::guard leaves nothing visible of Frame::size");
+    if (2 * uint64_t(frame.guard.width) >= width || 2 * uint64_t(frame.guard.height) >= height) return fail("Frame::guard, on both sides, is not less than Frame::size");
     for (int i = 0; i < 16; ++i)
         if (!std::isfinite(p[i])) return fail("Frame::projection holds a value that is not finite");
-    if (p[0] == 0.0f || p[5] == 0.0f) return fail("Frame::projection scales x or y to nothing");
+    if (p[0] == 0.0f || p[5] == 0.0f) return fail("Frame::projection scales x or y to 0");
     const bool perspective = p[11] != 0.0f;
-    if (perspective && p[11] > 0.0f) return fail("Frame::projection looks down +z; eye space looks down -z");
+    if (perspective && p[11] > 0.0f) return fail("Frame::projection looks down +z, eye space looks down -z: negate its third column (ao.h, Space)");
     if (!perspective && (p[15] == 0.0f || p[10] == 0.0f)) return fail("Frame::projection is neither perspective nor orthographic");
 
     const float w = perspective ? -p[11] : p[15];
@@ -49,12 +49,12 @@ Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason
     const auto fail = [&](const char* why) { reason = why; return Status::invalid; };
     const uint32_t cells = volume.cells;
     const bool dense = volume.structure == VolumeStructure::dense;
-    if (dense && (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0)) return fail("Frame::volume.cells is no power of two from 8 to 1024");
+    if (dense && (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0)) return fail("Frame::volume.cells is not a power of two from 8 to 1024");
     const float* m = volume.cellFromEye;
     for (int i = 0; i < 16; ++i)
         if (!std::isfinite(m[i])) return fail("Frame::volume.cellFromEye holds a value that is not finite");
     const float scale = std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-    if (!(scale > 0.0f)) return fail("Frame::volume.cellFromEye scales everything to nothing");
+    if (!(scale > 0.0f)) return fail("Frame::volume.cellFromEye has scale 0");
     for (int row = 0; row < 3; ++row) block.rows[row] = {m[row], m[4 + row], m[8 + row], m[12 + row]};
     const uint32_t mask = dense ? cells - 1 : ~0u;
     block.shift = {uint32_t(volume.origin[0]) & mask, uint32_t(volume.origin[1]) & mask, uint32_t(volume.origin[2]) & mask, dense ? cells : 0};

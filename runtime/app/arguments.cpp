@@ -21,7 +21,7 @@ namespace {
         const std::vector<std::string> extras = cli.remaining();
         const std::string word = extras.empty() ? text : extras.front();
         const std::string near = nearest(word.substr(0, word.find('=')), known);
-        text = fmt::format("{}: no such option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
+        text = fmt::format("{}: unknown option{}", word, near.empty() ? "" : fmt::format("; did you mean {}?", near));
     }
     throw Complaint(fmt::format("{} ({} --help lists all options)", text, cli.get_name()));
 }
@@ -44,12 +44,13 @@ std::vector<float> numbers(const std::string& text, char separator) {
 }
 
 glm::uvec2 sizeOf(const std::string& text) {
-    constexpr float kLeast = 16.0f, kMost = 8192.0f;
+    constexpr float kMinimum = 16.0f, kMaximum = 8192.0f;
     const std::vector<float> list = numbers(text, 'x');
-    bool good = list.size() == 2;
-    for (const float side : list) good = good && side == std::floor(side) && side >= kLeast && side <= kMost;
-    if (!good)
-        throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels, such as 640x360", text, kLeast, kMost));
+    bool valid = list.size() == 2;
+    for (const float side : list) valid = valid && side == std::floor(side) && side >= kMinimum && side <= kMaximum;
+    if (!valid)
+        throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels, such as 640x360", text, kMinimum,
+                                    kMaximum));
     return {uint32_t(list[0]), uint32_t(list[1])};
 }
 

@@ -1,4 +1,4 @@
-// What every program's command line needs beside CLI11: numbers and sizes as text, and mistakes told in one line.
+// Command-line helpers on top of CLI11: numbers and sizes as text, errors in one line.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@ class App;
 
 namespace obscura::app {
 
-// All of `text` as finite numbers between the separators; empty when it is anything else.
+// `text` as finite numbers between separators; empty if any part of it is not one.
 std::vector<float> numbers(const std::string& text, char separator);
-// "1280x720", px; throws Complaint that says how a size is written.
+// "1280x720", px; throws Complaint if malformed or out of range.
 glm::uvec2 sizeOf(const std::string& text);
-// A word as a shell reads it back.
+// Quotes a word for a POSIX shell where needed.
 std::string shellWord(const std::string& word);
-// What --offscreen says of itself in every program.
+// Help text of --offscreen in every program.
 inline constexpr const char* kOffScreenHelp =
-    "off, offscreen or hidden: occluders from voxels that the picture does not show, outside of it or hidden in it too (short for --set offscreen=...)";
-// Reads the command line. False: it asked for help or the version, which is printed. What CLI11 finds wrong is thrown as a
-// Complaint that adds what to do.
+    "off; offscreen: also traces voxels for occluders outside the image; hidden: and for those behind the visible surface "
+    "(short for --set offscreen=...)";
+// Parses the command line. False: help or the version was requested and has been printed. Throws Complaint, with a hint.
 bool parse(CLI::App& cli, int argc, const char* const* argv);
 
 }  // namespace obscura::app

@@ -22,7 +22,7 @@ Picture convert(const gpu::ImageDesc& desc, const std::byte* bytes) {
         uint16_t half;
         std::memcpy(&half, bytes + 2 * i, 2);
         const float value = glm::unpackHalf1x16(half);
-        // A NaN shows as black instead of as whatever the cast makes of it.
+        // A NaN becomes black: casting it to an integer is undefined.
         const auto grey = uint8_t(std::isnan(value) ? 0.0f : std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
         std::fill_n(picture.rgba.begin() + long(4 * i), 3, grey);
         picture.rgba[4 * i + 3] = 255;
@@ -47,7 +47,7 @@ gpu::Status Capture::addRaw(graph::Graph& graph, graph::ImageId image, Raw done)
         pending.buffer = std::move(*fits);
         m_free.erase(fits);
     } else {
-        m_free.clear();  // another size: the picture was resized
+        m_free.clear();  // buffers of an earlier image size
         const gpu::Status status =
             gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "capture", pending.buffer);
         if (status != gpu::Status::ok) return status;

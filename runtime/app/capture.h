@@ -1,5 +1,4 @@
-// Pictures from the GPU to the host without stalling: asked for while a frame is declared, handed over once that frame
-// has left the GPU.
+// Asynchronous readback of images: requested while a frame is declared, delivered once the GPU has finished that frame.
 #pragma once
 
 #include <deque>
@@ -17,12 +16,12 @@ public:
     using Done = std::function<void(Picture&&)>;
     explicit Capture(gpu::Device& device) : m_device(device) {}
 
-    // R8G8B8A8_UNORM as it is, or R16_SFLOAT in [0,1] as grey (linear values, not encoded: what a number view shows).
+    // R8G8B8A8_UNORM unchanged, or R16_SFLOAT in [0, 1] as grey without sRGB encoding.
     gpu::Status add(graph::Graph& graph, graph::ImageId image, Done done);
-    // Any format as it lies in memory, rows without gaps; the bytes are gone after the call.
+    // Any format, unconverted, rows tightly packed. The bytes are valid during the callback only.
     using Raw = std::function<void(std::span<const std::byte>)>;
     gpu::Status addRaw(graph::Graph& graph, graph::ImageId image, Raw done);
-    // Hands over what has arrived: after Frames::begin, or everything after Frames::wait (`all`).
+    // Runs the callbacks of finished frames: call it after Frames::begin(), or with `all` after Frames::wait().
     void collect(bool all = false);
 
 private:

@@ -11,7 +11,7 @@ namespace obscura::app {
 
 namespace {
 
-// Edits (insert, delete, replace) between two words, letter case ignored.
+// Levenshtein distance of two words, letter case ignored.
 size_t distance(std::string_view a, std::string_view b) {
     std::vector<size_t> row(b.size() + 1);
     for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -64,7 +64,7 @@ std::string choices(std::string_view wrong, const std::vector<std::string>& name
     const std::string near = nearest(wrong, names);
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    return near.empty() ? fmt::format("there are: {}", list) : fmt::format("did you mean {}? there are: {}", near, list);
+    return near.empty() ? fmt::format("available: {}", list) : fmt::format("did you mean {}? available: {}", near, list);
 }
 
 std::string oneLine(std::string_view text) {

@@ -23,7 +23,7 @@ fs::path temporaryName(const fs::path& file) {
 }
 
 [[noreturn]] void refuse(const fs::path& file, const char* why) {
-    throw Complaint(fmt::format("{}: cannot be written ({}); name a folder that exists and lets you write", file.string(), why));
+    throw Complaint(fmt::format("{}: cannot be written ({}); choose a folder that exists and is writable", file.string(), why));
 }
 
 }  // namespace
@@ -33,12 +33,12 @@ void writeFile(const fs::path& file, std::span<const std::byte> bytes) {
     std::FILE* out = std::fopen(temporary.c_str(), "wb");
     if (!out) refuse(file, std::strerror(errno));
     errno = 0;
-    bool good = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
-    good = std::fflush(out) == 0 && good;
+    bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
+    written = std::fflush(out) == 0 && written;
     int reason = errno;
-    good = std::fclose(out) == 0 && good;
-    if (good && std::rename(temporary.c_str(), file.c_str()) == 0) return;
-    if (good) reason = errno;
+    written = std::fclose(out) == 0 && written;
+    if (written && std::rename(temporary.c_str(), file.c_str()) == 0) return;
+    if (written) reason = errno;
     std::remove(temporary.c_str());
     refuse(file, std::strerror(reason));
 }

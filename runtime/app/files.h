@@ -1,4 +1,4 @@
-// Files that are written whole or not at all, and where a program finds its folders.
+// Atomic file writes and the program's folders.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace obscura::app {
 
-// Writes to a temporary name beside `file`, then renames. Throws Complaint and leaves nothing behind on failure.
+// Writes to a temporary name beside `file`, then renames. On failure it removes the temporary file and throws Complaint.
 void writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void writeFile(const std::filesystem::path& file, std::string_view text);
-// Throws Complaint unless a file of that name can be written: asked before long work, so that it is not in vain.
+// Throws Complaint unless the file can be written. Call it before long work.
 void expectWritable(const std::filesystem::path& file);
-// Makes the folder when it is missing; throws Complaint when nothing can be written there.
+// Creates the folder if missing; throws Complaint unless files can be written in it.
 void expectFolder(const std::filesystem::path& folder);
 
-// A name in the current folder that no file has yet: "stem-20240131-235959.png", then with -2, -3, ...
+// An unused file name in the current folder: "stem-20240131-235959.png", then with -2, -3, ...
 std::filesystem::path freshName(const std::string& stem, const std::string& extension);
 
 std::string base64(std::span<const std::byte> bytes);
-std::filesystem::path executableFolder();  // empty when the system does not tell
-std::filesystem::path cacheFolder();       // of this program, per user; empty when there is none; may not exist yet
+std::filesystem::path executableFolder();  // empty if unknown
+std::filesystem::path cacheFolder();       // per user; may not exist yet; empty without XDG_CACHE_HOME and HOME
 
 }  // namespace obscura::app

@@ -8,7 +8,7 @@ double now() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Frames::Frames(gpu::Device& device) : m_device(device), m_slots(device.framesInFlight()) {
+Frames::Frames(gpu::Device& device) : m_device(device), m_executor(device), m_slots(device.framesInFlight()) {
     const gpu::Api& vk = device.vk();
     for (Slot& slot : m_slots) {
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -63,14 +63,14 @@ gpu::Status Frames::begin(graph::Graph& graph) {
     VkResult result = vk.ResetCommandPool(m_device.handle(), slot.pool, 0);
     if (result == VK_SUCCESS) result = vk.BeginCommandBuffer(slot.commands, &info);
     if (result != VK_SUCCESS) return gpu::fromVulkan(result);
-    graph.begin();
+    graph.begin(&m_executor.timings());
     return gpu::Status::ok;
 }
 
 gpu::Status Frames::end(graph::Graph& graph, VkSemaphore waitFor, VkSemaphore signal) {
     Slot& slot = m_slots[m_slot];
     const gpu::Api& vk = m_device.vk();
-    if (const gpu::Status status = graph.execute(slot.commands); status != gpu::Status::ok) return status;
+    if (const gpu::Status status = m_executor.execute(graph, slot.commands); status != gpu::Status::ok) return status;
     if (const VkResult result = vk.EndCommandBuffer(slot.commands); result != VK_SUCCESS) return gpu::fromVulkan(result);
 
     const VkSemaphoreSubmitInfo waits{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, .semaphore = waitFor, .stageMask = kAcquireStages};

@@ -1,30 +1,31 @@
-// Frames in flight: command pools, fences and the order of the steps, the same with and without a window.
+// Frames in flight: command pools, command buffers and fences, with and without a window.
 //
-//     frames.begin(graph);                     // waits for the oldest frame, opens the next
+//     frames.begin(graph);                     // waits for the oldest frame, begins the next
 //     ... declare passes ...
 //     frames.end(graph, acquired, rendered);   // records, submits
 #pragma once
 
 #include <vector>
 
-#include "graph/graph.h"
+#include "graph/executor.h"
 
 namespace obscura::app {
 
 class Frames {
 public:
-    explicit Frames(gpu::Device& device);  // check good() afterwards
-    ~Frames();                             // waits
+    explicit Frames(gpu::Device& device);  // good() is false if a Vulkan object could not be created
+    ~Frames();                             // waits for the GPU
     Frames(const Frames&) = delete;
 
     bool good() const { return m_good; }
     gpu::Status begin(graph::Graph& graph);
-    // Null semaphores are left out. On failure nothing was submitted.
+    // Null semaphores are ignored. On failure nothing was submitted.
     gpu::Status end(graph::Graph& graph, VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
-    gpu::Status wait();  // until every submitted frame has left the GPU
+    gpu::Status wait();  // until the GPU has finished every submitted frame
+    graph::Executor& executor() { return m_executor; }
     uint32_t slot() const { return m_slot; }                // 0 .. framesInFlight - 1
-    double recordMilliseconds() const { return m_record; }  // last frame, after the wait, until submitted
-    // Where the wait on the acquire semaphore stands, and so what an imported swapchain image must name.
+    double recordMilliseconds() const { return m_record; }  // of the last frame: CPU time from the end of the wait to the submission
+    // Stages that wait for the acquire semaphore; External::stages of an imported swapchain image.
     static constexpr VkPipelineStageFlags2 kAcquireStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
 
 private:
@@ -36,6 +37,7 @@ private:
     };
     gpu::Status wait(Slot& slot);
     gpu::Device& m_device;
+    graph::Executor m_executor;
     std::vector<Slot> m_slots;
     uint32_t m_slot = 0;
     bool m_good = true;

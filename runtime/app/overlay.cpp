@@ -37,7 +37,7 @@ bool uploadFonts(gpu::Device& device) {
 std::unique_ptr<Overlay> Overlay::create(gpu::Device& device, Window& window, VkFormat format, std::string& error) {
     std::unique_ptr<Overlay> overlay(new Overlay(device));
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr;  // no imgui.ini
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
     style.WindowRounding = 4.0f;
@@ -48,7 +48,7 @@ std::unique_ptr<Overlay> Overlay::create(gpu::Device& device, Window& window, Vk
     font.SizePixels = 13.0f * window.scale();
     ImGui::GetIO().Fonts->AddFontDefault(&font);
 
-    error = "the overlay could not be made on this device";
+    error = "Dear ImGui could not be initialised on this device";
     if (!overlay->loadApi() || !overlay->createObjects(format)) return nullptr;
     overlay->m_glfwReady = ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
     ImGui_ImplVulkan_InitInfo info{};
@@ -60,7 +60,7 @@ std::unique_ptr<Overlay> Overlay::create(gpu::Device& device, Window& window, Vk
     info.PipelineCache = device.pipelineCache();
     info.DescriptorPool = overlay->m_pool;
     info.MinImageCount = std::max(2u, device.framesInFlight());
-    info.ImageCount = info.MinImageCount;  // how many sets of vertex buffers take turns
+    info.ImageCount = info.MinImageCount;  // sets of vertex buffers that the back end rotates
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.Allocator = device.allocator();
     overlay->m_vulkanReady = overlay->m_glfwReady && initBackEnd(info, overlay->m_renderPass);
@@ -81,7 +81,7 @@ Overlay::~Overlay() {
 }
 
 bool Overlay::loadApi() {
-    // Render pass objects are used nowhere else, so the project's table does not carry them.
+    // gpu::Api lacks these functions: nothing else uses render pass objects.
     const auto load = [&]<class F>(F& function, const char* name) {
         function = reinterpret_cast<F>(m_device.vk().GetDeviceProcAddr(m_device.handle(), name));
         return function != nullptr;
@@ -93,7 +93,7 @@ bool Overlay::loadApi() {
 
 bool Overlay::createObjects(VkFormat format) {
     m_framebuffers.assign(m_device.framesInFlight(), VK_NULL_HANDLE);
-    // The graph has brought the picture into the attachment layout and takes it on from there.
+    // The graph makes the layout transitions before and after this render pass.
     const VkAttachmentDescription attachment{.format = format,
                                              .samples = VK_SAMPLE_COUNT_1_BIT,
                                              .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,

@@ -1,4 +1,4 @@
-// Dear ImGui on the frame's picture. Between beginFrame() and add() anyone may call ImGui; add() draws it as a pass.
+// Dear ImGui over the frame's image. Call ImGui between beginFrame() and add(); add() draws it as a graph pass.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@ namespace obscura::app {
 
 class Overlay {
 public:
-    // Null, with a reason in one line. `format` is that of the pictures it will be drawn on.
+    // Null on failure; `error` is then one line. `format`: of the images that it draws into.
     static std::unique_ptr<Overlay> create(gpu::Device& device, Window& window, VkFormat format, std::string& error);
     ~Overlay();  // waits for the device
     Overlay(const Overlay&) = delete;
 
     void beginFrame();
-    // Ends the ImGui frame. `slot` is the frame in flight (Frames::slot), whose earlier frame has left the GPU.
+    // Ends the ImGui frame and adds its pass. `slot`: Frames::slot(); the GPU has finished the slot's previous frame.
     void add(graph::Graph& graph, graph::ImageId picture, uint32_t slot);
     void skip();  // ends the ImGui frame without drawing
     bool wantsKeys() const;   // a text field has the keyboard

@@ -1,11 +1,11 @@
-// A report as one file that any browser opens: a page with its style, its script and its data inside.
+// Builds a self-contained HTML report: page, style, script and JSON data in one file.
 #pragma once
 
 #include <string>
 
 namespace obscura::app {
 
-// `html` holds the marks /*STYLE*/, /*SCRIPT*/ and /*DATA*/, each once. The data are JSON, escaped so that no tag in them ends the script.
+// `html` has the placeholders /*STYLE*/, /*SCRIPT*/ and /*DATA*/ once each. '<' is escaped in the JSON, so that it cannot end the script.
 std::string page(std::string html, const std::string& css, const std::string& script, std::string json);
 
 }  // namespace obscura::app

@@ -1,4 +1,4 @@
-// An 8-bit picture in host memory and its way into a PNG file.
+// An 8-bit image in host memory, and PNG output.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ struct Picture {
     Picture half() const;            // box-filtered to half the size, for thumbnails
 };
 
-// Opaque RGB; the same picture gives the same bytes.
+// Opaque RGB; deterministic.
 std::vector<std::byte> encodePng(const Picture& picture);
-// Whole or not at all; throws Complaint.
+// Atomic, as writeFile(); throws Complaint.
 void writePng(const std::filesystem::path& file, const Picture& picture);
 
 }  // namespace obscura::app

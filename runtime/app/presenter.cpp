@@ -19,7 +19,7 @@ VkSemaphore makeSemaphore(const gpu::Device& device) {
 
 std::unique_ptr<Presenter> Presenter::create(gpu::Device& device, Window& window, bool vsync, std::string& error) {
     if (!device.caps().presentation || !device.vk().CreateSwapchainKHR) {
-        error = device.caps().deviceName + " cannot present to a window";
+        error = device.caps().deviceName + " cannot present to a window (VK_KHR_swapchain is missing)";
         return nullptr;
     }
     std::unique_ptr<Presenter> presenter(new Presenter(device, window, vsync));
@@ -37,7 +37,7 @@ Presenter::~Presenter() {
 bool Presenter::createSurface(std::string& error) {
     const gpu::Api& vk = m_device.vk();
     if (m_window.createSurface(m_device.instance(), m_device.allocator(), m_surface) != VK_SUCCESS) {
-        error = "the window gave no surface to draw on";
+        error = "no Vulkan surface could be created for the window";
         return false;
     }
     VkBool32 supported = VK_FALSE;
@@ -48,7 +48,7 @@ bool Presenter::createSurface(std::string& error) {
     vk.GetPhysicalDeviceSurfaceFormatsKHR(m_device.physical(), m_surface, &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
     vk.GetPhysicalDeviceSurfaceFormatsKHR(m_device.physical(), m_surface, &count, formats.data());
-    // The picture is sRGB-encoded already: a UNORM format, so that nothing encodes it a second time.
+    // The image is sRGB-encoded already, hence a UNORM format: an SRGB one would encode it twice.
     const auto plain = std::find_if(formats.begin(), formats.end(), [&](const VkSurfaceFormatKHR& f) {
         return (f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM || f.format == VK_FORMAT_A8B8G8R8_UNORM_PACK32) &&
                f.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR && m_device.formatSupports(f.format, VK_FORMAT_FEATURE_BLIT_DST_BIT);
@@ -83,7 +83,7 @@ bool Presenter::createSwapchain() {
         return false;
     }
     VkExtent2D size = caps.currentExtent;
-    if (size.width == ~0u) {  // the surface takes the size it is given
+    if (size.width == ~0u) {  // the swapchain decides the surface's size
         const VkExtent2D window = m_window.size();
         size = {std::clamp(window.width, caps.minImageExtent.width, caps.maxImageExtent.width),
                 std::clamp(window.height, caps.minImageExtent.height, caps.maxImageExtent.height)};
@@ -149,7 +149,7 @@ bool Presenter::acquire(uint32_t slot) {
         }
     }
     if (window.width != m_size.width || window.height != m_size.height) m_stale = true;
-    // Out of date at once after being made means that the window is changing right now: once more, then the next frame.
+    // A new swapchain that is out of date means that the window is being resized: one more attempt now, the next one next frame.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if ((m_stale || !m_swapchain) && !createSwapchain()) return false;
         const VkResult result = m_device.vk().AcquireNextImageKHR(m_device.handle(), m_swapchain, UINT64_MAX, m_acquired[slot], VK_NULL_HANDLE, &m_image);

@@ -1,5 +1,5 @@
-// Surface and swapchain of a window. Survives resizing, minimising and the loss of the surface: acquire() then says that
-// there is nothing to draw into, and the frame after it tries anew.
+// Surface and swapchain of a window. Handles resizing, minimising and a lost surface: acquire() then returns false, and the next frame
+// tries again.
 #pragma once
 
 #include <memory>
@@ -13,19 +13,19 @@ namespace obscura::app {
 
 class Presenter {
 public:
-    // Null, with a reason in one line, when this device cannot show pictures in this window.
+    // Null if the device cannot present to the window; `error` is then one line.
     static std::unique_ptr<Presenter> create(gpu::Device& device, Window& window, bool vsync, std::string& error);
     ~Presenter();  // waits for the device
     Presenter(const Presenter&) = delete;
 
-    // After Frames::begin for that slot. False: nothing to draw into now.
+    // Call it after Frames::begin() for that slot. False: no swapchain image this frame.
     bool acquire(uint32_t slot);
     VkExtent2D size() const { return m_size; }
     VkSemaphore acquired() const { return m_acquired[m_slot]; }
     VkSemaphore rendered() const { return m_rendered[m_image]; }
-    // Copies `picture` into the acquired image, as the frame's last pass.
+    // Blits `picture` into the acquired image, as the frame's last pass.
     void add(graph::Graph& graph, graph::ImageId picture);
-    // After the frame's submission. Only deviceLost and outOfMemory are failures.
+    // Call it after the frame's submission. Only deviceLost and outOfMemory are failures.
     gpu::Status present();
 
 private:
@@ -43,8 +43,8 @@ private:
     VkSurfaceFormatKHR m_format{};
     VkExtent2D m_size{};
     std::vector<VkImage> m_images;
-    std::vector<VkSemaphore> m_acquired;  // one a frame in flight
-    std::vector<VkSemaphore> m_rendered;  // one an image: only its next acquisition shows that presenting is done with it
+    std::vector<VkSemaphore> m_acquired;  // one per frame in flight
+    std::vector<VkSemaphore> m_rendered;  // one per image: presentation has surely ended only when the image is acquired again
     uint32_t m_slot = 0, m_image = 0;
     bool m_stale = true, m_surfaceLost = false;
 };

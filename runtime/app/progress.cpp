@@ -21,7 +21,7 @@ Progress::~Progress() {
 
 void Progress::at(size_t done, const std::string& item) {
     const auto now = Clock::now();
-    // The first call has no m_last yet; after that, no more often than the eye follows.
+    // The first and the last call always draw, the others at most every 50 ms.
     if (!m_shown || (done && done < m_total && now - m_last < std::chrono::milliseconds(50))) return;
     m_last = now;
     constexpr size_t kWidth = 28;

@@ -1,4 +1,4 @@
-// A progress bar on a terminal; silent where stderr is no terminal.
+// A progress bar on stderr, hidden if stderr is not a terminal.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace obscura::app {
 class Progress {
 public:
     Progress(std::string what, size_t total);
-    ~Progress();  // wipes the bar
+    ~Progress();  // clears the line
     Progress(const Progress&) = delete;
     void at(size_t done, const std::string& item = {});
 

@@ -1,4 +1,4 @@
-// Frame and pass times over the last frames: what the overlay plots and the report prints.
+// Frame and pass times of the last frames, for the overlay's plots and for reports.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace obscura::app {
 
-// The value below which the fraction `rank` of the values lies (0.5: median); 0 when there are none.
+// The value below which the fraction `rank` of the values lies (0.5: median); 0 without values.
 double percentile(std::vector<double> values, double rank);
 
 struct Series {
@@ -20,19 +20,19 @@ struct Series {
     double p95() const { return percentile(values, 0.95); }
     double worst() const { return percentile(values, 1.0); }
 };
-// The one of that name; a new one at the end where there is none. Valid until the next is added.
+// The series of that name, appended if missing. Valid until another series is appended.
 Series& named(std::vector<Series>& all, const std::string& name);
 
 class Statistics {
 public:
     explicit Statistics(size_t keep) : m_keep(keep) {}
-    // Takes timings once, whenever the graph shows those of another frame than before.
+    // Adds the timings of a frame; the same frame again is ignored.
     void add(const graph::Timings& timings);
     void addCpu(double recording, double frame);  // milliseconds
     void clear();
 
-    const std::vector<Series>& passes() const { return m_passes; }  // in the newest frame's order; gone ones are dropped
-    double total(std::string_view prefix) const;  // sum of the medians of passes whose names begin so
+    const std::vector<Series>& passes() const { return m_passes; }  // of the newest frame, in its order
+    double total(std::string_view prefix) const;  // sum of the medians of passes whose names start with `prefix`
     const Series& gpu() const { return m_gpu; }      // first to last timestamp
     const Series& cpu() const { return m_cpu; }      // recording and submitting
     const Series& frame() const { return m_frame; }  // from one frame's begin to the next one's

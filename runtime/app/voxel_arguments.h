@@ -1,4 +1,4 @@
-// How the world is voxelized, as command-line options: the same for every program.
+// Command-line options of voxelization, the same in every program.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ class App;
 
 namespace obscura::app {
 
-// Adds --voxels, --voxel-size, --voxelizer, --voxel-structure and --voxel-shell to a group of `cli`, which fills `into` when it parses; and a progress bar
-// for what takes long.
+// Adds --voxels, --voxel-size, --voxelizer, --voxel-structure and --voxel-shell to a group of `cli`; parsing fills `into`. Also sets
+// `into.building` to a progress bar.
 void addVoxelArguments(CLI::App& cli, render::Voxelization& into, const std::string& group);
 
 inline constexpr const char* kVoxelizerNames[] = {"openvdb", "gpu"};

@@ -8,7 +8,7 @@ namespace obscura::app {
 
 namespace {
 
-// GLFW reports what went wrong only to a callback.
+// GLFW passes error texts to a callback only.
 std::string g_lastError;
 
 GLFWmonitor* monitorOf(GLFWwindow* window) {
@@ -39,12 +39,12 @@ std::unique_ptr<Window> Window::open(const char* title, int width, int height, s
     g_lastError.clear();
     glfwSetErrorCallback([](int, const char* text) { g_lastError = oneLine(text); });
     if (!glfwInit()) {
-        error = g_lastError.empty() ? "no display" : g_lastError;
+        error = g_lastError.empty() ? "GLFW found no display" : g_lastError;
         return nullptr;
     }
-    std::unique_ptr<Window> window(new Window);  // from here on its destructor ends GLFW
+    std::unique_ptr<Window> window(new Window);  // its destructor terminates GLFW
     if (!glfwVulkanSupported()) {
-        error = "the window system cannot show Vulkan pictures";
+        error = "GLFW found no Vulkan driver that can present to this display";
         return nullptr;
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -119,7 +119,7 @@ void Window::captureMouse(bool on) {
     if (on == m_captured) return;
     m_captured = on;
     glfwSetInputMode(m_window, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
-    glfwGetCursorPos(m_window, &m_mouse.x, &m_mouse.y);  // the jump is not a movement
+    glfwGetCursorPos(m_window, &m_mouse.x, &m_mouse.y);  // the pointer's jump does not count as movement
 }
 
 void Window::toggleFullScreen() {

@@ -1,4 +1,4 @@
-// A GLFW window: its size, what was pressed since the last poll, the mouse. One window a program.
+// A GLFW window: size, keyboard and mouse input since the last poll. One window per program.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace obscura::app {
 
 class Window {
 public:
-    // Null, with a reason in one line, when there is no display or no Vulkan on it. Size in screen units.
+    // Null without a display or Vulkan; `error` is then one line. Size in GLFW's screen coordinates ("screen units" below).
     static std::unique_ptr<Window> open(const char* title, int width, int height, std::string& error);
     ~Window();
     Window(const Window&) = delete;
@@ -22,12 +22,12 @@ public:
     std::vector<const char*> instanceExtensions() const;
     VkResult createSurface(VkInstance instance, const VkAllocationCallbacks* allocator, VkSurfaceKHR& surface) const;
     VkExtent2D size() const;  // pixels; 0 while minimised
-    float scale() const;      // of the monitor, 1 on ordinary ones
+    float scale() const;      // content scale of the monitor, at least 1
     bool closing() const { return glfwWindowShouldClose(m_window) != 0; }
     void close() { glfwSetWindowShouldClose(m_window, GLFW_TRUE); }
 
     void poll();
-    void waitEvents(double seconds);  // for when nothing need be drawn
+    void waitEvents(double seconds);  // sleeps until an event arrives or the time is over
     struct Press {
         int key;
         bool repeat;
@@ -43,9 +43,9 @@ public:
     glm::vec2 mouse() const { return m_mouse; }                      // screen units
     glm::vec2 screenSize() const;                                    // screen units, at least 1
     glm::vec2 mouseMoved() const { return m_moved; }  // pixels since the last poll
-    void captureMouse(bool on);  // hides it; its movements go on without bounds
+    void captureMouse(bool on);  // hides the pointer; its movement is then unbounded
     bool mouseCaptured() const { return m_captured; }
-    void toggleFullScreen();  // on the monitor that shows most of the window; stays as it is when there is none
+    void toggleFullScreen();  // on the monitor that shows most of the window; without one it has no effect
     GLFWwindow* handle() const { return m_window; }
 
 private:
@@ -53,7 +53,7 @@ private:
     GLFWwindow* m_window = nullptr;
     std::vector<Press> m_pressed;
     std::vector<Click> m_clicked;
-    glm::vec2 m_pointer{0.0f};  // at the last event, where a click that is already over was
+    glm::vec2 m_pointer{0.0f};  // pointer position at the last event: a click's position
     glm::dvec2 m_mouse{0.0};
     glm::vec2 m_moved{0.0f};
     bool m_captured = false;

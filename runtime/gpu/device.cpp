@@ -1,4 +1,4 @@
-// A device once it exists, however it came to be: adoption, deferred release, samplers, immediate commands.
+// A device, created or adopted: adoption, deferred release, samplers, immediate commands.
 // Creation is in device_create.cpp, memory in memory.cpp.
 #include "gpu/device.h"
 
@@ -14,22 +14,22 @@ namespace obscura::gpu {
 
 namespace {
 
-constexpr size_t kRoomForReleases = 2048;  // objects: more than a frame, or a context's end, releases
+constexpr size_t kSpareReleases = 2048;  // objects: more than a frame, or a context's end, releases
 
-// Why the device will not do; null if it will. What the host has turned on cannot be asked for, only what there is.
-const char* unfit(const Api& vk, VkPhysicalDevice physical, uint32_t family) {
+// Why the device cannot be used; empty if it can. Vulkan tells which features a device has, not which ones the host enabled.
+std::string unfit(const Api& vk, VkPhysicalDevice physical, uint32_t family) {
     uint32_t count = 0;
     vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-    if (family >= count) return "queueFamily is none it has";
-    if (!(families[family].queueFlags & VK_QUEUE_COMPUTE_BIT)) return "queueFamily does no compute";
+    if (family >= count) return fmt::format("queueFamily {} does not exist: the device has {}", family, count);
+    if (!(families[family].queueFlags & VK_QUEUE_COMPUTE_BIT)) return fmt::format("queueFamily {} does not support compute", family);
     VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v13};
     vk.GetPhysicalDeviceFeatures2(physical, &features);
     if (!v13.synchronization2) return "feature synchronization2 is missing";
     if (!features.features.shaderStorageImageExtendedFormats) return "feature shaderStorageImageExtendedFormats is missing";
-    return nullptr;
+    return {};
 }
 
 }  // namespace
@@ -59,9 +59,12 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& er
     }
     VkPhysicalDeviceProperties properties;
     device->m_vk.GetPhysicalDeviceProperties(host.physicalDevice, &properties);
-    missing = properties.apiVersion < VK_API_VERSION_1_3 ? "Vulkan 1.3 is needed" : unfit(device->m_vk, host.physicalDevice, host.queueFamily);
-    if (missing) {
-        error = fmt::format("adopting the Vulkan device '{}': {}", properties.deviceName, missing);
+    const std::string reason = properties.apiVersion < VK_API_VERSION_1_3
+                                   ? fmt::format("it supports Vulkan {}.{}; 1.3 is needed", VK_API_VERSION_MAJOR(properties.apiVersion),
+                                                 VK_API_VERSION_MINOR(properties.apiVersion))
+                                   : unfit(device->m_vk, host.physicalDevice, host.queueFamily);
+    if (!reason.empty()) {
+        error = fmt::format("adopting the Vulkan device '{}': {}", properties.deviceName, reason);
         return nullptr;
     }
     device->m_device = host.device;
@@ -74,7 +77,7 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& er
 }
 
 Status Device::finish() {
-    m_released.reserve(kRoomForReleases);
+    m_released.reserve(kSpareReleases);
     VkPhysicalDeviceProperties properties;
     m_vk.GetPhysicalDeviceProperties(m_physical, &properties);
     m_caps.deviceName = properties.deviceName;
@@ -129,7 +132,7 @@ Device::~Device() {
 }
 
 void Device::nextFrame() {
-    m_released.reserve(m_released.size() + kRoomForReleases);
+    m_released.reserve(m_released.size() + kSpareReleases);
     ++m_frame;
     if (m_frame >= m_framesInFlight) destroyReleased(m_frame - m_framesInFlight);
 }
@@ -177,12 +180,19 @@ void Device::destroy(VkObjectType type, uint64_t handle) {
     }
 }
 
-VkSampler Device::sampler(Filter filter, VkSamplerAddressMode address) {
-    const bool linear = filter == Filter::linear;
+VkSampler Device::sampler(Sampling sampling) {
+    const bool nearest = sampling == Sampling::nearest || sampling == Sampling::nearestRepeat;
+    const bool repeat = sampling == Sampling::nearestRepeat || sampling == Sampling::linearRepeat;
+    const bool shadow = sampling == Sampling::shadow;
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.magFilter = info.minFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-    info.mipmapMode = linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
-    info.addressModeU = info.addressModeV = info.addressModeW = address;
+    info.magFilter = info.minFilter = nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+    info.mipmapMode = nearest || shadow ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    info.addressModeU = info.addressModeV = info.addressModeW = repeat   ? VK_SAMPLER_ADDRESS_MODE_REPEAT
+                                                                : shadow ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER
+                                                                         : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
+    info.compareEnable = shadow;
+    info.compareOp = shadow ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_NEVER;
     info.maxLod = VK_LOD_CLAMP_NONE;
     return sampler(info);
 }

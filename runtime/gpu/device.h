@@ -25,7 +25,7 @@ struct DeviceOptions {
     std::string name;                 // part of a device name, case-insensitive; empty: discrete, integrated, virtual, software
     bool validation = false;          // core validation; ignored with a warning when the layer is not installed
     bool synchronization = false;     // synchronization validation as well
-    std::vector<const char*> instanceExtensions;  // what the window system asks for
+    std::vector<const char*> instanceExtensions;  // of the window system
     bool presentation = false;        // enables VK_KHR_swapchain where offered
     uint32_t framesInFlight = 2;
     std::string pipelineCacheFile;    // read at creation, written at destruction when changed; empty: none
@@ -48,7 +48,7 @@ struct AdoptedDevice {
 struct Caps {
     std::string deviceName;
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-    bool software = false;            // a CPU rasterizer: timestamps need a barrier behind them (see Timer)
+    bool software = false;            // a CPU rasterizer: timestamps need a barrier behind them (see Timestamps)
     bool timestamps = false;
     double timestampPeriod = 1.0;     // nanoseconds a tick
     uint64_t timestampMask = ~0ull;
@@ -61,7 +61,8 @@ struct Caps {
     uint64_t maxStorageRange = 1u << 27;  // bytes that a storage buffer's binding may span
 };
 
-enum class Filter : uint8_t { nearest, linear };
+// Clamp to edge unless said; `shadow` compares >= and reads 0 (far) outside.
+enum class Sampling : uint8_t { nearest, linear, nearestRepeat, linearRepeat, shadow };
 
 class Device {
 public:
@@ -101,11 +102,11 @@ public:
     void releaseMemory(const MemoryBlock& block);
     uint64_t memoryUse() const { return m_memoryUse; }  // bytes of device memory allocated by us
 
-    VkSampler sampler(Filter filter, VkSamplerAddressMode address);  // cached, owned by the device
-    VkSampler sampler(const VkSamplerCreateInfo& info);              // likewise
+    VkSampler sampler(Sampling sampling);                // cached, owned by the device
+    VkSampler sampler(const VkSamplerCreateInfo& info);  // likewise
     void nameObject(VkObjectType type, uint64_t handle, const char* name) const;
     void log(Severity severity, const std::string& message) const;
-    // What failed last: for whoever learns that something was not made, but not why.
+    // The last failure, for callers that only see that something was not made.
     void noteFailure(Status status) const { m_failure = status; }
     Status failure() const { return m_failure; }
     bool formatSupports(VkFormat format, VkFormatFeatureFlags features) const;  // optimal tiling
@@ -144,11 +145,11 @@ private:
     VkPhysicalDeviceMemoryProperties m_memory{};
     Log m_log;
     std::string m_pipelineCacheFile;
-    std::vector<uint8_t> m_pipelineCacheRead;          // what the driver was given, to see whether it has grown
+    std::vector<uint8_t> m_pipelineCacheRead;          // as read from the file, to see whether the driver's has changed
     uint64_t m_frame = 0;
     uint64_t m_memoryUse = 0;
     uint64_t m_validationMessages = 0;
-    std::vector<Released> m_released;                  // with room to spare: destructors add to it, which must not fail
+    std::vector<Released> m_released;                  // with spare capacity: destructors add to it, which must not fail
     mutable Status m_failure = Status::ok;
     struct CachedSampler { std::array<uint32_t, 18> key; VkSampler sampler; };
     std::vector<CachedSampler> m_samplers;

@@ -58,7 +58,7 @@ bool offers(const std::vector<VkExtensionProperties>& offered, const char* name)
     return std::any_of(offered.begin(), offered.end(), [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
-struct Global {  // what can be called before there is an instance
+struct Global {  // functions that need no instance
     PFN_vkGetInstanceProcAddr load = systemLoader();
     PFN_vkCreateInstance createInstance = (PFN_vkCreateInstance)load(nullptr, "vkCreateInstance");
     PFN_vkEnumerateInstanceVersion version = (PFN_vkEnumerateInstanceVersion)load(nullptr, "vkEnumerateInstanceVersion");
@@ -85,7 +85,7 @@ struct Features {
     VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
 };
 
-// Of what the device has, what we turn on; names the first feature we cannot do without. Terminate, demote and
+// Enables the features that we use. Returns the name of the first required one that is missing, or null. Terminate, demote and
 // maintenance4 are what SPIR-V 1.6 compilers assume (discard, workgroup sizes); every Vulkan 1.3 device has them.
 const char* chooseFeatures(const Features& has, Features& wants) {
     if (!has.v13.dynamicRendering) return "dynamicRendering";

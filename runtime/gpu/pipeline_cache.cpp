@@ -1,5 +1,5 @@
-// The pipeline cache on disk. Drivers trust what they are given, so the file carries a head of our own: it is used only if
-// every byte is what was written, by the same driver for the same device; anything else means starting empty.
+// The pipeline cache on disk. Drivers trust its contents, so the file has a header of our own with a checksum, the driver and the device:
+// if any differs, the cache starts empty.
 #include <array>
 #include <chrono>
 #include <cstring>

@@ -11,7 +11,7 @@ namespace obscura::gpu {
 
 namespace {
 
-// What every Vulkan device has, and what the layouts of a frame are planned with.
+// The minimum that every Vulkan device supports.
 constexpr uint32_t kMaxPushConstantBytes = 128;
 
 VkDescriptorType descriptorType(BindingKind kind) {

@@ -1,4 +1,4 @@
-// Images and buffers come to be and go. Their load-time transfers are in transfers.cpp.
+// Images and buffers: creation and destruction. Load-time transfers are in transfers.cpp.
 #include "gpu/resources.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/format_name.h"
 #include "gpu/result.h"
 
 namespace obscura::gpu {
@@ -135,7 +136,7 @@ void Image::swap(Image& other) noexcept {
 Status Image::create(Device& device, const ImageDesc& desc, const char* name, Image& out) {
     out = Image();
     const auto bad = [&](Status status, const std::string& why) {
-        return fail(device, status, fmt::format("image '{}' ({}x{}x{}, format {}): {}", text(name), desc.width, desc.height, desc.depth, int(desc.format), why));
+        return fail(device, status, fmt::format("image '{}' ({}x{}x{}, {}): {}", text(name), desc.width, desc.height, desc.depth, formatName(desc.format), why));
     };
     const uint32_t largest = std::max({desc.width, desc.height, desc.depth});
     if (desc.format == VK_FORMAT_UNDEFINED || desc.usage == 0) return bad(Status::invalid, "it has no format or no usage");

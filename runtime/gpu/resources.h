@@ -35,7 +35,7 @@ public:
     VkImageView mipView(uint32_t mip) const { return m_mipViews[mip]; }
     const ImageDesc& desc() const { return m_desc; }
     uint64_t bytes() const { return m_block.bytes; }
-    static uint64_t bytesOf(Device& device, const ImageDesc& desc);   // what one would take; allocates nothing; 0 if it cannot be made
+    static uint64_t bytesOf(Device& device, const ImageDesc& desc);   // memory that one would take; allocates nothing; 0 if it cannot be made
 
 private:
     void swap(Image& other) noexcept;

@@ -1,4 +1,4 @@
-// Shader code and what it says of itself. SPIR-V and its reflection are made at build time by obscura-compile-shaders and
+// Shader code and its reflection. SPIR-V and its reflection are made at build time by obscura-compile-shaders and
 // embedded; a ShaderLibrary finds them by name ("ao/hbao/horizons.comp") and swaps them when a source file is edited.
 #pragma once
 
@@ -44,15 +44,15 @@ struct EmbeddedShader {
 std::string describe(const Shader& shader);                          // one line of text
 bool undescribe(std::string_view text, Shader& shader);              // false if malformed
 
-// Compiles GLSL; on failure returns false and puts file, line and message in `error`. Given by runtime/gpu/compiler, so
-// that what only runs embedded shaders need not link glslang. `dependencies` receives every file read.
+// Compiles GLSL; on failure returns false and puts file, line and message in `error`. Implemented by runtime/gpu/compiler, so
+// that programs which only run embedded shaders need not link glslang. `dependencies` receives every file read.
 using CompileShader = std::function<bool(const std::filesystem::path& file, const std::filesystem::path& root, Shader& out,
                                          std::string& error, std::vector<std::filesystem::path>& dependencies)>;
 
 class ShaderLibrary {
 public:
     void add(std::span<const EmbeddedShader> shaders);
-    // Null when there is none of that name. The pointer stays valid; `generation` tells when its content changed.
+    // Null if there is none of that name. The pointer stays valid; `generation` tells when its content changed.
     const Shader* find(std::string_view name) const;
     uint64_t generation(std::string_view name) const;
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "gpu/resources.h"
+#include "gpu/format_name.h"
 #include "gpu/result.h"
 
 namespace obscura::gpu {
@@ -77,7 +78,7 @@ Status upload(Device& device, Buffer& buffer, std::span<const std::byte> bytes, 
 Status upload(Device& device, Image& image, std::span<const std::byte> texels, VkImageLayout layout) {
     const ImageDesc& desc = image.desc();
     const auto bad = [&](Status status, const std::string& why) {
-        return fail(device, status, fmt::format("upload to an image ({}x{}x{}, format {}): {}", desc.width, desc.height, desc.depth, int(desc.format), why));
+        return fail(device, status, fmt::format("upload to an image ({}x{}x{}, {}): {}", desc.width, desc.height, desc.depth, formatName(desc.format), why));
     };
     if (!image) return bad(Status::invalid, "there is no image");
     if (texels.size() != bytesOf(desc) || texels.empty()) return bad(Status::invalid, fmt::format("{} bytes given, {} needed", texels.size(), bytesOf(desc)));
@@ -116,7 +117,7 @@ Status upload(Device& device, Image& image, std::span<const std::byte> texels, V
 Status download(Device& device, VkImage image, const ImageDesc& desc, VkImageLayout layout, std::vector<std::byte>& out) {
     out.clear();
     const auto bad = [&](Status status, const std::string& why) {
-        return fail(device, status, fmt::format("download of an image ({}x{}x{}, format {}): {}", desc.width, desc.height, desc.depth, int(desc.format), why));
+        return fail(device, status, fmt::format("download of an image ({}x{}x{}, {}): {}", desc.width, desc.height, desc.depth, formatName(desc.format), why));
     };
     if (!image || layout == VK_IMAGE_LAYOUT_UNDEFINED) return bad(Status::invalid, "there is no image, or nothing in it yet");
     if (bytesOf(desc) == 0) return bad(Status::unsupported, "texels of unknown size");

@@ -1,27 +1,12 @@
-// Declaring a frame: resources, passes, and turning them into a plan with images behind it.
+// Declaring a frame.
 #include "graph/graph.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 
 #include <fmt/format.h>
 
-#include "graph/physical.h"
-
 namespace obscura::graph {
-namespace {
-
-constexpr uint64_t kUploadChunk = 256 << 10;  // bytes
-constexpr uint64_t kUploadAlignment = 256;    // the largest minimum any Vulkan device asks for
-constexpr uint64_t kForgetAfter = 16;         // frames a pooled image may lie unused
-constexpr VkBufferUsageFlags kUploadUsage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-constexpr VkBufferUsageFlags kBufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-
-}  // namespace
-
-// ---- Pass -----------------------------------------------------------------------------------------------------------
 
 Pass& Pass::read(ImageId image, Sampling sampling) { return readMip(image, ~0u, sampling); }
 Pass& Pass::readMip(ImageId image, uint32_t mip, Sampling sampling) { m_bound.push_back({false, image.index, mip, sampling, false}); return *this; }
@@ -50,13 +35,16 @@ Pass& Pass::depthTest(ImageId image) {
 }
 
 Pass& Pass::use(ImageId image, Access access, bool discard) {
-    const gpu::ImageDesc& desc = m_graph->m_recording.resources[image.index].desc;
-    m_graph->m_recording.passes[m_index].uses.push_back({image.index, 0, desc.mips, access, 0, discard});
+    std::vector<Use>& uses = m_graph->m_recording.passes[m_index].uses;
+    uses.push_back({image.index, 0, m_graph->desc(image).mips, access, 0, discard});
+    m_declaredUses = uses.size();
     return *this;
 }
 
 Pass& Pass::use(BufferId buffer, Access access) {
-    m_graph->m_recording.passes[m_index].uses.push_back({buffer.index, 0, 1, access, 0, false});
+    std::vector<Use>& uses = m_graph->m_recording.passes[m_index].uses;
+    uses.push_back({buffer.index, 0, 1, access, 0, false});
+    m_declaredUses = uses.size();
     return *this;
 }
 
@@ -87,161 +75,85 @@ void Pass::record(Record record) {
     m_record = std::move(record);
 }
 
-// ---- Graph ----------------------------------------------------------------------------------------------------------
-
-Graph::Graph(gpu::Device& device, bool rehearsal) : m_device(device), m_rehearsal(rehearsal) {
-    for (uint32_t i = 0; i < device.framesInFlight(); ++i) m_frames.push_back(std::make_unique<Frame>());
-}
-
-Graph::~Graph() {
-    for (auto& frame : m_frames) {
-        for (VkDescriptorPool pool : frame->pools) m_device.release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool);
-        m_device.release(VK_OBJECT_TYPE_QUERY_POOL, frame->queries);
-        m_device.release(VK_OBJECT_TYPE_EVENT, frame->executed);
-    }
-}
-
-void Graph::begin() {
-    m_recording = {};
-    m_prefix.clear();
+void Graph::begin(const Timings* timings) {
+    m_timings = timings;
+    m_recording.resources.clear();
+    m_recording.passes.clear();
     m_passes.clear();
-    m_physical.clear();
+    m_handles.clear();
+    m_uploads.clear();
     m_histories.clear();
-    for (PoolBuffer& buffer : m_buffers) buffer.taken = false;
-    std::erase_if(m_buffers, [&](const PoolBuffer& b) { return b.lastUsed + kForgetAfter < m_device.frame(); });
-
-    m_frame = m_frames[m_device.frame() % m_frames.size()].get();
-    collectTimings(*m_frame);
-    m_frame->number = m_device.frame();
-    m_frame->pool = 0;
-    for (VkDescriptorPool pool : m_frame->pools) m_device.vk().ResetDescriptorPool(m_device.handle(), pool, 0);
-    for (Frame::Upload& upload : m_frame->uploads) upload.used = 0;
+    m_onRecorded.clear();
+    m_prefix.clear();
 }
 
-uint32_t Graph::add(Resource resource) {
+const Timings& Graph::timings() const {
+    static const Timings kNone;
+    return m_timings ? *m_timings : kNone;
+}
+
+uint32_t Graph::add(Resource resource, Handles handles) {
     m_recording.resources.push_back(std::move(resource));
-    m_physical.emplace_back();
+    m_handles.push_back(handles);
     return uint32_t(m_recording.resources.size() - 1);
 }
 
 ImageId Graph::image(std::string name, gpu::ImageDesc desc) {
     assert(desc.format != VK_FORMAT_UNDEFINED && desc.width > 0 && desc.height > 0);
-    return {add({std::move(name), Kind::transient, desc})};
+    return {add({.name = std::move(name), .desc = desc})};
+}
+
+BufferId Graph::buffer(std::string name, uint64_t bytes) {
+    assert(bytes > 0);
+    return {add({.name = std::move(name), .isBuffer = true, .bytes = bytes})};
+}
+
+BufferId Graph::upload(std::string name, const void* data, size_t bytes) {
+    assert(bytes > 0);
+    const uint64_t offset = m_uploads.size();
+    const auto* first = static_cast<const std::byte*>(data);
+    m_uploads.insert(m_uploads.end(), first, first + bytes);
+    return {add({.name = std::move(name), .origin = Origin::upload, .isBuffer = true, .bytes = bytes, .uploadOffset = offset})};
 }
 
 ImageId Graph::import(std::string name, const External& external) {
-    Resource resource{std::move(name), Kind::imported, external.desc};
     State state;
     state.layout = external.layout;
     state.writeStages = external.stages;
     state.writeAccess = external.layout == VK_IMAGE_LAYOUT_UNDEFINED ? 0 : VK_ACCESS_2_MEMORY_WRITE_BIT;
-    resource.initial.assign(1, state);
-    resource.finalLayout = external.layoutAfter;
-    resource.output = true;
-    const uint32_t index = add(std::move(resource));
-    m_physical[index].image = external.image;
-    m_physical[index].view = external.view;
-    return {index};
+    return {add({.name = std::move(name), .origin = Origin::imported, .desc = external.desc, .initial = {state},
+                 .finalLayout = external.layoutAfter, .output = true},
+                {external.image, external.view, {}})};
 }
 
 BufferId Graph::import(std::string name, const gpu::Buffer& buffer, Shared shared) {
-    Resource resource{std::move(name), Kind::buffer};
-    State state;
-    if (shared == Shared::written) {
-        state.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        state.writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT;
-        resource.output = true;
-    }
-    resource.initial.assign(1, state);
-    const uint32_t index = add(std::move(resource));
-    m_physical[index].buffer = buffer.handle();
-    m_physical[index].bytes = buffer.bytes();
-    return {index};
+    const bool written = shared == Shared::written;
+    const BufferId id = import(std::move(name), ExternalBuffer{buffer.handle(), 0, buffer.bytes()});
+    m_recording.resources[id.index].output = written;
+    if (!written) m_recording.resources[id.index].initial.assign(1, State{});
+    return id;
 }
 
 BufferId Graph::import(std::string name, const ExternalBuffer& buffer) {
-    Resource resource{std::move(name), Kind::buffer};
     State state;
     state.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     state.writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    resource.initial.assign(1, state);
-    const uint32_t index = add(std::move(resource));
-    m_physical[index].buffer = buffer.buffer;
-    m_physical[index].offset = buffer.offset;
-    m_physical[index].bytes = buffer.bytes;
-    return {index};
+    return {add({.name = std::move(name), .origin = Origin::imported, .isBuffer = true, .bytes = buffer.bytes, .initial = {state}},
+                {VK_NULL_HANDLE, VK_NULL_HANDLE, buffer})};
 }
 
-BufferId Graph::upload(std::string name, const void* data, size_t bytes) {
-    Frame::Upload* chunk = nullptr;
-    for (Frame::Upload& upload : m_frame->uploads)
-        if (upload.used + bytes <= upload.bytes) { chunk = &upload; break; }
-    const uint32_t index = add({std::move(name), Kind::buffer, {}, std::vector<State>(1)});
-    if (!chunk) {
-        Frame::Upload fresh;
-        fresh.bytes = std::max<uint64_t>(kUploadChunk, bytes);
-        if (m_rehearsal)
-            m_rehearsed += m_frames.size() * gpu::Buffer::bytesOf(m_device, fresh.bytes, kUploadUsage, gpu::Memory::upload);
-        else if (gpu::Buffer::create(m_device, fresh.bytes, kUploadUsage, gpu::Memory::upload, "graph upload", fresh.buffer) != gpu::Status::ok)
-            return {index};  // execute() fails: the buffer is null
-        m_frame->uploads.push_back(std::move(fresh));
-        chunk = &m_frame->uploads.back();
-    }
-    if (!m_rehearsal) std::memcpy(chunk->buffer.mapped() + chunk->used, data, bytes);
-    m_physical[index].buffer = chunk->buffer.handle();
-    m_physical[index].offset = chunk->used;
-    m_physical[index].bytes = bytes;
-    chunk->used += (bytes + kUploadAlignment - 1) / kUploadAlignment * kUploadAlignment;
-    return {index};
-}
-
-BufferId Graph::buffer(std::string name, uint64_t bytes) {
-    if (m_rehearsal) {
-        m_rehearsed += gpu::Buffer::bytesOf(m_device, bytes, kBufferUsage, gpu::Memory::device);
-        return {add({std::move(name), Kind::buffer, {}, std::vector<State>(1)})};
-    }
-    auto found = std::find_if(m_buffers.begin(), m_buffers.end(), [&](const PoolBuffer& b) { return !b.taken && b.buffer.bytes() == bytes; });
-    if (found == m_buffers.end()) {
-        PoolBuffer fresh;
-        gpu::Buffer::create(m_device, bytes, kBufferUsage, gpu::Memory::device, name.c_str(), fresh.buffer);
-        found = m_buffers.insert(m_buffers.end(), std::move(fresh));
-    }
-    found->taken = true;
-    found->lastUsed = m_device.frame();
-    const uint32_t index = add({std::move(name), Kind::buffer, {}, std::vector<State>(1, found->state)});
-    m_physical[index].buffer = found->buffer.handle();
-    m_physical[index].bytes = bytes;
-    m_physical[index].poolBuffer = int(found - m_buffers.begin());
-    return {index};
-}
-
-Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History& history) {
+Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History& history, bool discard) {
     desc.usage |= VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    if (m_rehearsal) {
-        m_rehearsed += 2 * gpu::Image::bytesOf(m_device, desc);
-        const ImageId previous{add({name + ".previous", Kind::imported, desc, std::vector<State>(desc.mips)})};
-        const ImageId current{add({name, Kind::imported, desc, std::vector<State>(desc.mips)})};
-        output(current);
-        return {previous, current, false};
-    }
-    for (int i = 0; i < 2; ++i) {
-        if (history.m_images[i] && history.m_images[i].desc() == desc) continue;
-        history.m_states[i].assign(desc.mips, State{});
-        history.m_valid = false;
-        if (gpu::Image::create(m_device, desc, name.c_str(), history.m_images[i]) != gpu::Status::ok) break;  // execute() then fails
-    }
-    HistoryPair pair{{}, {}, history.m_valid};
-    for (int i = 0; i < 2; ++i) {
-        const uint32_t which = i == 0 ? 1 - history.m_current : history.m_current;
-        const uint32_t index = add({name + (i == 0 ? ".previous" : ""), Kind::imported, desc, history.m_states[which]});
-        m_recording.resources[index].output = i == 1;
-        m_physical[index].image = history.m_images[which].handle();
-        m_physical[index].view = history.m_images[which].view();
-        m_physical[index].owned = &history.m_images[which];
-        (i == 0 ? pair.previous : pair.current) = {index};
-    }
+    const uint32_t write = history.m_current, read = 1 - write;
+    const auto side = [&](uint32_t which, std::string of, bool output) {
+        const gpu::Image& image = history.m_images[which];
+        std::vector<State> states = image && image.desc() == desc ? history.m_states[which] : std::vector<State>(desc.mips);
+        return ImageId{add({.name = std::move(of), .origin = Origin::history, .desc = desc, .initial = std::move(states), .output = output})};
+    };
+    const bool fits = history.m_images[read] && history.m_images[read].desc() == desc;
+    HistoryPair pair{side(read, name + ".previous", false), side(write, name, true), history.m_valid && fits && !discard};
     m_histories.push_back({&history, pair.previous.index, pair.current.index});
-    if (!history.m_valid) {
+    if (!pair.valid) {
         const ImageId previous = pair.previous;
         pass(name + ".clear").use(previous, Access::transferWrite, true).record([previous](const PassContext& c) {
             const VkClearColorValue zero{};
@@ -267,11 +179,22 @@ Pass& Graph::pass(std::string name) {
 }
 
 void Graph::output(ImageId image) { m_recording.resources[image.index].output = true; }
-const gpu::ImageDesc& Graph::desc(ImageId id) const { return m_recording.resources[id.index].desc; }
-const std::string& Graph::name(ImageId id) const { return m_recording.resources[id.index].name; }
+
+std::vector<Graph::Written> Graph::written() const {
+    std::vector<Written> result;
+    for (const Pass& pass : m_passes) {
+        const PassDesc& desc = m_recording.passes[pass.m_index];
+        for (size_t i = 0; i < pass.m_declaredUses; ++i)
+            if (info(desc.uses[i].access).writes && !m_recording.resources[desc.uses[i].resource].isBuffer)
+                result.push_back({desc.name, {desc.uses[i].resource}});
+        for (const Pass::Bound& bound : pass.m_bound)
+            if (bound.writes && !bound.isBuffer) result.push_back({desc.name, {bound.resource}});
+    }
+    return result;
+}
 
 // A pass against its shaders: as many bindings as reads and writes, each of the kind that was given.
-bool Graph::check(const Pass& pass) {
+bool Graph::check(const Pass& pass) const {
     const std::string& name = m_recording.passes[pass.m_index].name;
     const auto fail = [&](const std::string& what) {
         m_device.log(gpu::Severity::error, fmt::format("graph: pass '{}': {}", name, what));
@@ -304,11 +227,12 @@ bool Graph::check(const Pass& pass) {
     return true;
 }
 
-// What each pass binds, as its shader says how.
-bool Graph::bindings() {
+bool Graph::resolve() {
     for (Pass& pass : m_passes) {
         if (pass.m_program) pass.m_program->refresh();
         if (!check(pass)) return false;
+        std::vector<Use>& uses = m_recording.passes[pass.m_index].uses;
+        uses.resize(pass.m_declaredUses);
         if (!pass.m_program) continue;
         size_t next = 0;
         for (const gpu::Binding& binding : pass.m_program->bindings()) {
@@ -316,52 +240,11 @@ bool Graph::bindings() {
             const Pass::Bound& bound = pass.m_bound[next++];
             const bool all = bound.mip == ~0u;
             const uint32_t mips = bound.isBuffer || !all ? 1 : m_recording.resources[bound.resource].desc.mips;
-            m_recording.passes[pass.m_index].uses.push_back({bound.resource, bound.isBuffer || all ? 0 : bound.mip, mips, accessOf(binding),
-                                                             pipelineStages(pass.m_program->stagesOf(binding)), false});
+            uses.push_back({bound.resource, bound.isBuffer || all ? 0 : bound.mip, mips, accessOf(binding),
+                            pipelineStages(pass.m_program->stagesOf(binding)), false});
         }
     }
     return true;
-}
-
-gpu::Status Graph::realize() {
-    if (!bindings()) return gpu::Status::invalid;
-    for (uint32_t i = 0; i < m_recording.resources.size(); ++i) {
-        const Kind kind = m_recording.resources[i].kind;
-        if (kind == Kind::buffer ? !m_physical[i].buffer : kind == Kind::imported && !m_physical[i].image)
-            return m_device.failure() == gpu::Status::ok ? gpu::Status::invalid : m_device.failure();  // whoever failed to make it has said so
-    }
-    // Pool images that nobody wanted for a while go; the rest lend their states to the plan.
-    for (size_t i = m_pool.size(); i-- > 0;) {
-        if (m_pool[i].lastUsed + kForgetAfter >= m_device.frame()) continue;
-        m_pool.erase(m_pool.begin() + ptrdiff_t(i));
-        m_plan.slots.erase(m_plan.slots.begin() + ptrdiff_t(i));
-    }
-    m_slotsBefore = m_plan.slots;
-    Plan next = plan(m_recording, m_plan.slots);
-    for (const std::string& problem : next.problems) m_device.log(gpu::Severity::error, "graph: " + problem);
-    if (!next.problems.empty()) return gpu::Status::invalid;
-    m_pool.reserve(next.slots.size());
-    m_slotsBefore.reserve(next.slots.size());  // so that both grow or neither
-    while (m_pool.size() < next.slots.size()) {
-        PoolImage fresh;
-        fresh.lastUsed = m_device.frame();
-        const Slot& slot = next.slots[m_pool.size()];
-        if (const gpu::Status status = gpu::Image::create(m_device, slot.desc, "graph image", fresh.image); status != gpu::Status::ok) return status;
-        m_slotsBefore.push_back({slot.desc, slot.ordinal, std::vector<State>(slot.desc.mips)});
-        m_pool.push_back(std::move(fresh));
-    }
-    m_plan = std::move(next);
-
-    for (uint32_t i = 0; i < m_recording.resources.size(); ++i) {
-        Physical& physical = m_physical[i];
-        if (m_plan.slotOf[i] < 0) continue;
-        PoolImage& pooled = m_pool[size_t(m_plan.slotOf[i])];
-        pooled.lastUsed = m_device.frame();
-        physical.image = pooled.image.handle();
-        physical.view = pooled.image.view();
-        physical.owned = &pooled.image;
-    }
-    return gpu::Status::ok;
 }
 
 }  // namespace obscura::graph

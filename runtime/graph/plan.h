@@ -1,9 +1,8 @@
-// What a frame's passes need of each other, worked out without a GPU: which passes run, which physical image a transient
-// lives in, which barriers stand before each pass. Pure: the same recording and states give the same plan, which tests
-// compare as text.
+// A frame's plan, worked out without a GPU: which passes run, which image or buffer of the pool each transient lives in, where uploads lie,
+// which barriers stand before each pass. Pure: the same recording and states give the same plan, which tests compare as text.
 #pragma once
 
-#include <map>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,16 +21,23 @@ struct State {
     std::vector<Visible> visible;           // to whom the write has been made visible
 };
 
-enum class Kind : uint8_t { transient, imported, buffer };
+enum class Origin : uint8_t {
+    transient,  // from the pool, contents undefined until written
+    upload,     // a buffer in the frame's upload memory
+    history,    // an image that outlives the frame, owned by a History
+    imported,
+};
 
 struct Resource {
     std::string name;
-    Kind kind = Kind::transient;
-    gpu::ImageDesc desc;             // images; usage is added up by the plan
-    std::vector<State> initial;      // imported: one a mip (buffers: one); transients start from their slot's
-    Access finalAccess = Access::none;  // imported images: left like this after the last pass
-    VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED;  // or in this layout, for hosts; overrides finalAccess
-    bool output = false;             // whoever writes it is not culled
+    Origin origin = Origin::transient;
+    bool isBuffer = false;
+    gpu::ImageDesc desc;         // images; usage is added up by the plan
+    uint64_t bytes = 0;          // buffers
+    uint64_t uploadOffset = 0;   // uploads: where their data begins in what the recording holds
+    std::vector<State> initial;  // history, imported: one a mip (buffers: one); transients start from their slot's
+    VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED;  // imported images: in this layout after the last pass; UNDEFINED: as it comes
+    bool output = false;         // what writes it is not culled
 };
 
 struct Use {
@@ -61,11 +67,17 @@ struct Barrier {
     VkImageLayout from = VK_IMAGE_LAYOUT_UNDEFINED, to = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 
-// A physical image of the pool: the n-th one of its description.
+// A physical image or buffer of the pool.
 struct Slot {
-    gpu::ImageDesc desc;
-    uint32_t ordinal = 0;
+    gpu::ImageDesc desc;       // images
+    uint64_t bytes = 0;        // buffers; 0: an image
     std::vector<State> state;  // one a mip: in, as the previous frame left it; out, as this frame does
+};
+
+// Where an upload lies in the upload memory of its frame.
+struct Placement {
+    uint32_t chunk = 0;
+    uint64_t offset = 0;
 };
 
 struct Plan {
@@ -75,16 +87,30 @@ struct Plan {
     };
     std::vector<Step> steps;            // in declaration order, culled passes left out
     std::vector<Barrier> closing;       // after the last pass: imported images into their final layout
-    std::vector<int> slotOf;            // per resource; -1 for imported ones and those of culled passes
+    std::vector<int> slotOf;            // by resource; -1 for those that are not transient and those of culled passes
     std::vector<Slot> slots;
-    std::vector<std::vector<State>> finalStates;  // per resource, of imported ones
+    std::vector<Placement> placements;  // by resource, of uploads
+    std::vector<uint64_t> chunks;       // bytes of each piece of upload memory
+    std::vector<std::vector<State>> finalStates;  // by resource, of those that are not transient
     std::vector<std::string> problems;  // reads of what nobody wrote; each names the pass and the image
 
     std::string text(const Recording& recording) const;
     std::string dot(const Recording& recording) const;
 };
 
-// `slots` are the pool's images with the states in which the previous frame left them.
-Plan plan(const Recording& recording, const std::vector<Slot>& slots = {});
+// What the frame finds: the pool, in the states in which the previous frame left it, and the sizes of its pieces of upload memory.
+Plan plan(const Recording& recording, std::vector<Slot> slots = {}, std::vector<uint64_t> chunks = {});
+
+constexpr VkBufferUsageFlags kUploadUsage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags kPoolBufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                                VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+
+// Device memory of the pool, the histories, and the uploads of all frames in flight. What an image or a buffer takes is the device's to
+// say.
+struct MemoryOf {
+    std::function<uint64_t(const gpu::ImageDesc&)> image;
+    std::function<uint64_t(uint64_t bytes, VkBufferUsageFlags usage, gpu::Memory memory)> buffer;
+};
+uint64_t bytes(const Recording& recording, const Plan& plan, uint32_t framesInFlight, const MemoryOf& memory);
 
 }  // namespace obscura::graph

@@ -55,11 +55,11 @@ const char* layoutName(VkImageLayout layout) {
 std::string line(const Recording& recording, const Barrier& barrier) {
     const Resource& resource = recording.resources[barrier.resource];
     std::string what = resource.name;
-    if (resource.kind != Kind::buffer && resource.desc.mips > 1)
+    if (!resource.isBuffer && resource.desc.mips > 1)
         what += barrier.mips == 1 ? fmt::format("[{}]", barrier.firstMip)
                                   : fmt::format("[{}-{}]", barrier.firstMip, barrier.firstMip + barrier.mips - 1);
     const std::string layouts =
-        resource.kind == Kind::buffer || barrier.from == barrier.to ? "" : fmt::format(" {}>{}", layoutName(barrier.from), layoutName(barrier.to));
+        resource.isBuffer || barrier.from == barrier.to ? "" : fmt::format(" {}>{}", layoutName(barrier.from), layoutName(barrier.to));
     return fmt::format("  {}: {}({}) > {}({}){}\n", what, bits(barrier.srcStages, kStages), bits(barrier.srcAccess, kAccesses),
                        bits(barrier.dstStages, kStages), bits(barrier.dstAccess, kAccesses), layouts);
 }
@@ -82,7 +82,7 @@ std::string Plan::text(const Recording& recording) const {
         std::string names;
         for (size_t i = 0; i < slotOf.size(); ++i)
             if (slotOf[i] == int(s)) names += " " + recording.resources[i].name;
-        if (!names.empty()) result += fmt::format("image {}:{}\n", s, names);
+        if (!names.empty()) result += fmt::format("{} {}:{}\n", slots[s].bytes ? "buffer" : "image", s, names);
     }
     for (const std::string& problem : problems) result += "problem: " + problem + "\n";
     return result;

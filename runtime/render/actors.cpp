@@ -6,7 +6,8 @@
 namespace obscura::render {
 namespace {
 
-// Frames at rest until something counts as furniture: many, since each change of mind redraws all the furniture's shadows.
+// Frames without motion until an object counts as settled. Large, since each object that settles or moves again makes the shadow map of all
+// settled objects be redrawn.
 constexpr uint32_t kSettled = 600;
 
 scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix) {
@@ -32,7 +33,7 @@ scene::Bounds widened(scene::Bounds box, const glm::vec3& by) {
     return box;
 }
 
-// Whatever the weights, a morphed vertex stays within their sum of reaches.
+// Bound of the displacement of morphed vertices: the weighted sum of the targets' largest displacements.
 glm::vec3 morphReach(const PrimitiveGpu& primitive, const std::vector<float>& weights) {
     glm::vec3 reach(0.0f);
     for (size_t t = 0; t < primitive.targetReach.size() && t < weights.size(); ++t) reach += std::abs(weights[t]) * primitive.targetReach[t];
@@ -53,7 +54,7 @@ uint32_t Ranges::take(uint32_t count) {
         if (free.count == 0) m_free.erase(m_free.begin() + ptrdiff_t(i));
         return first;
     }
-    // Doubling keeps the copies that growth costs rare.
+    // Doubling, since growing copies the posed buffers.
     const uint32_t capacity = std::max({m_capacity * 2, m_capacity + count, 4096u});
     give(m_capacity, capacity - m_capacity);
     m_capacity = capacity;
@@ -73,9 +74,9 @@ void Ranges::give(uint32_t first, uint32_t count) {
 }
 
 void Actors::release(Actor& actor) {
-    for (Piece& piece : actor.pieces)
-        if (piece.posed != kNotPosed) m_ranges.give(piece.posed, piece.vertices);
-    actor.pieces.clear();
+    for (PrimitiveState& state : actor.states)
+        if (state.posed != kNotPosed) m_ranges.give(state.posed, state.vertices);
+    actor.states.clear();
 }
 
 void Actors::rebuild(Actor& actor, const scene::Instance& instance, const ModelGpu& model) {
@@ -89,29 +90,29 @@ void Actors::rebuild(Actor& actor, const scene::Instance& instance, const ModelG
         if (source.mesh < 0) continue;
         for (const PrimitiveGpu& primitive : model.meshes[size_t(source.mesh)]) {
             if (primitive.indexCount == 0) continue;
-            Piece piece{node, &primitive, primitive.skinned && source.skin >= 0};
-            piece.vertices = primitive.vertexCount;
-            if (piece.skinned || primitive.morphed) piece.posed = m_ranges.take(piece.vertices);
-            if (piece.posed == kNotPosed && !animated[size_t(node)]) piece.rested = kSettled;
-            actor.pieces.push_back(piece);
+            PrimitiveState state{node, &primitive, primitive.skinned && source.skin >= 0};
+            state.vertices = primitive.vertexCount;
+            if (state.skinned || primitive.morphed) state.posed = m_ranges.take(state.vertices);
+            if (state.posed == kNotPosed && !animated[size_t(node)]) state.rested = kSettled;
+            actor.states.push_back(state);
         }
     }
 }
 
 void Actors::addJobs(const Actor& actor, const ModelGpu& model, const std::map<int, uint32_t>& skins) {
-    for (const Piece& piece : actor.pieces) {
-        if (piece.posed == kNotPosed) continue;
-        const PrimitiveGpu& primitive = *piece.primitive;
+    for (const PrimitiveState& state : actor.states) {
+        if (state.posed == kNotPosed) continue;
+        const PrimitiveGpu& primitive = *state.primitive;
         shared::DeformJob job{};
         job.vertices = primitive.vertexCount;
         job.positions = primitive.restPositions;
         job.frames = primitive.restFrames;
-        job.influences = piece.skinned ? primitive.influences : ~0u;
-        job.joints = piece.skinned ? skins.at(actor.model->nodes[size_t(piece.node)].skin) : 0;
+        job.influences = state.skinned ? primitive.influences : ~0u;
+        job.joints = state.skinned ? skins.at(actor.model->nodes[size_t(state.node)].skin) : 0;
         job.targets = primitive.targets;
         job.weights = uint32_t(m_weights.size());
-        job.posed = piece.posed;
-        const std::vector<float>& weights = actor.pose.weights[size_t(piece.node)];
+        job.posed = state.posed;
+        const std::vector<float>& weights = actor.pose.weights[size_t(state.node)];
         for (uint32_t t = 0; t < primitive.targetReach.size() && t < weights.size(); ++t)
             if (weights[t] != 0.0f) m_weights.push_back({t, weights[t]});
         job.weightCount = uint32_t(m_weights.size()) - job.weights;
@@ -146,14 +147,14 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
         actor.time = when;
         actor.animation = instance.animation;
 
-        // Joint matrices of the skins in use; also what deformed bounds follow from.
+        // Joint matrices of the skins in use; deformed bounds need them too.
         std::map<int, std::vector<glm::mat4>> skins;
         std::map<int, uint32_t> skinAt;
-        // Two buffers take turns: once the same pose stands in both there is nothing to write.
+        // Positions are double-buffered: after two frames with the same pose both buffers have it.
         const bool deforms = actor.unchanged < 2;
-        for (const Piece& piece : actor.pieces) {
-            const int skin = instance.model->nodes[size_t(piece.node)].skin;
-            if (!piece.skinned || skins.count(skin)) continue;
+        for (const PrimitiveState& state : actor.states) {
+            const int skin = instance.model->nodes[size_t(state.node)].skin;
+            if (!state.skinned || skins.count(skin)) continue;
             auto& matrices = skins[skin] = scene::jointMatrices(*instance.model, instance.model->skins[size_t(skin)], actor.pose);
             if (!deforms) continue;
             skinAt[skin] = uint32_t(m_joints.size() / 3);
@@ -162,24 +163,24 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
         }
         if (deforms) addJobs(actor, *model, skinAt);
 
-        for (Piece& piece : actor.pieces) {
-            const PrimitiveGpu& primitive = *piece.primitive;
+        for (PrimitiveState& state : actor.states) {
+            const PrimitiveGpu& primitive = *state.primitive;
             Drawable drawable;
             drawable.model = model;
             drawable.primitive = &primitive;
-            drawable.posed = piece.posed;
+            drawable.posed = state.posed;
             drawable.fresh = fresh;
-            drawable.version = piece.posed == kNotPosed ? 0 : actor.version;
-            drawable.world = piece.skinned ? instance.placement : instance.placement * actor.pose.world[size_t(piece.node)];
-            drawable.previousWorld = fresh ? drawable.world : piece.world;
-            drawable.still = fresh || (drawable.world == piece.world && (piece.posed == kNotPosed || samePoses));
-            piece.rested = drawable.still ? std::min(piece.rested + 1, kSettled) : 0;
-            drawable.settled = piece.rested >= kSettled;
-            const glm::vec3 reach = morphReach(primitive, actor.pose.weights[size_t(piece.node)]);
+            drawable.version = state.posed == kNotPosed ? 0 : actor.version;
+            drawable.world = state.skinned ? instance.placement : instance.placement * actor.pose.world[size_t(state.node)];
+            drawable.previousWorld = fresh ? drawable.world : state.world;
+            drawable.still = fresh || (drawable.world == state.world && (state.posed == kNotPosed || samePoses));
+            state.rested = drawable.still ? std::min(state.rested + 1, kSettled) : 0;
+            drawable.settled = state.rested >= kSettled;
+            const glm::vec3 reach = morphReach(primitive, actor.pose.weights[size_t(state.node)]);
             glm::mat4 facing = drawable.world;
-            if (piece.skinned) {
-                // A skinned vertex is a mean of what its joints make of it, so it stays in the hull of their boxes.
-                const auto& matrices = skins[instance.model->nodes[size_t(piece.node)].skin];
+            if (state.skinned) {
+                // A skinned vertex is a weighted mean of its transforms by its joints, so it is inside the hull of their boxes.
+                const auto& matrices = skins[instance.model->nodes[size_t(state.node)].skin];
                 for (const PrimitiveGpu::JointBox& box : primitive.jointBoxes)
                     grow(drawable.bounds, transformed(widened(box.box, reach), instance.placement * matrices[box.joint]));
                 if (!primitive.jointBoxes.empty()) facing = instance.placement * matrices[primitive.jointBoxes.front().joint];
@@ -187,7 +188,7 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
                 drawable.bounds = transformed(widened(primitive.bounds, reach), drawable.world);
             }
             drawable.flipped = glm::determinant(glm::mat3(facing)) < 0.0f;
-            piece.world = drawable.world;
+            state.world = drawable.world;
             m_drawables.push_back(std::move(drawable));
         }
         actor.fresh = false;

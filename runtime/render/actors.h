@@ -1,5 +1,4 @@
-// What the world's instances are this frame and were last frame: poses, matrices, bounds, and where in the posed buffers
-// each deformed primitive lies. Remembers by Instance::id.
+// State of the world's instances in this and the last frame, by Instance::id: poses, matrices, bounds, and ranges of the posed buffers.
 #pragma once
 
 #include <functional>
@@ -19,16 +18,16 @@ struct Drawable {
     const ModelGpu* model = nullptr;
     const PrimitiveGpu* primitive = nullptr;
     glm::mat4 world{1.0f}, previousWorld{1.0f};  // object -> world; skinned: model -> world
-    scene::Bounds bounds;                        // world, conservative for deformed ones
+    scene::Bounds bounds;                        // world, conservative if deformed
     uint32_t posed = kNotPosed;                  // first vertex in the posed buffers
-    bool fresh = false;                          // nothing of last frame is known: its positions then are those of now
+    bool fresh = false;                          // new, or after a cut: its previous positions are the current ones
     bool still = false;                          // has not moved since last frame
-    bool settled = false;                        // nor for a while before
+    bool settled = false;                        // rigid and not animated, or without motion for 600 frames
     bool flipped = false;                        // negative determinant: winding is reversed
     uint64_t version = 0;                        // changes with the deformed shape
 };
 
-// Vertex ranges of the posed buffers.
+// Allocator of vertex ranges in the posed buffers.
 class Ranges {
 public:
     uint32_t take(uint32_t count);  // may grow capacity()
@@ -44,27 +43,27 @@ private:
 class Actors {
 public:
     using FindModel = std::function<const ModelGpu*(const scene::Model*)>;
-    // `cut`: last frame does not count.
+    // `cut`: last frame is ignored.
     void update(const scene::World& world, float time, bool cut, const FindModel& find);
 
     std::span<const Drawable> drawables() const { return m_drawables; }
 
-    // What has to be deformed this frame, for scene/deform.comp.
+    // Primitives to deform this frame, for scene/deform.comp.
     struct Job { shared::DeformJob job; const ModelGpu* model; };
     std::span<const Job> jobs() const { return m_jobs; }
-    std::span<const glm::vec4> joints() const { return m_joints; }  // three rows a matrix
+    std::span<const glm::vec4> joints() const { return m_joints; }  // three rows per matrix
     std::span<const shared::ActiveWeight> weights() const { return m_weights; }
     uint32_t posedCapacity() const { return m_ranges.capacity(); }  // vertices
 
 private:
-    struct Piece {
+    struct PrimitiveState {
         int node = -1;
         const PrimitiveGpu* primitive = nullptr;
         bool skinned = false;
         uint32_t posed = kNotPosed;
-        uint32_t vertices = 0;  // of the posed range; its model may be gone when the range is given back
-        glm::mat4 world{1.0f};  // last frame's, until updated
-        uint32_t rested = 0;    // frames it has been still
+        uint32_t vertices = 0;  // of the posed range: the model may have been destroyed when the range is freed
+        glm::mat4 world{1.0f};  // of the last update
+        uint32_t rested = 0;    // frames without motion
     };
     struct Actor {
         std::shared_ptr<const scene::Model> model;
@@ -73,9 +72,9 @@ private:
         bool fresh = true;
         scene::Pose pose;
         glm::mat4 placement{1.0f};
-        uint32_t unchanged = 0;  // frames in a row that the pose has been the same
+        uint32_t unchanged = 0;  // consecutive frames with the same pose
         uint64_t version = 0;
-        std::vector<Piece> pieces;
+        std::vector<PrimitiveState> states;
         bool seen = false;
     };
     void rebuild(Actor& actor, const scene::Instance& instance, const ModelGpu& model);

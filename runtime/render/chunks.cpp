@@ -12,7 +12,7 @@ struct Splitter {
     size_t limit;
     Chunks& out;
 
-    glm::vec3 centre(uint32_t triangle) const {  // three times it
+    glm::vec3 tripleCentre(uint32_t triangle) const {
         const uint32_t* i = &primitive.indices[size_t(triangle) * 3];
         return primitive.positions[i[0]] + primitive.positions[i[1]] + primitive.positions[i[2]];
     }
@@ -25,16 +25,16 @@ struct Splitter {
             out.ends.push_back(uint32_t(out.indices.size()));
             return;
         }
-        glm::vec3 low = centre(triangles[0]), high = low;
+        glm::vec3 low = tripleCentre(triangles[0]), high = low;
         for (const uint32_t t : triangles) {
-            low = glm::min(low, centre(t));
-            high = glm::max(high, centre(t));
+            low = glm::min(low, tripleCentre(t));
+            high = glm::max(high, tripleCentre(t));
         }
         const glm::vec3 extent = high - low;
         const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
         const size_t half = triangles.size() / 2;
         std::nth_element(triangles.begin(), triangles.begin() + ptrdiff_t(half), triangles.end(), [&](uint32_t a, uint32_t b) {
-            const float x = centre(a)[axis], y = centre(b)[axis];
+            const float x = tripleCentre(a)[axis], y = tripleCentre(b)[axis];
             return x != y ? x < y : a < b;
         });
         split(triangles.first(half));

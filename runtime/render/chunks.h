@@ -1,4 +1,4 @@
-// Large rigid primitives in spatially tight pieces, so that culling and near-to-far order have something to work with.
+// Splits large rigid primitives into spatially compact chunks, for culling and near-to-far order.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Chunks {
     std::vector<uint32_t> ends;     // one past each chunk's last index; at least one chunk
 };
 
-// Splits at the median of the longest axis down to `triangles` a chunk. Within a chunk triangles keep their order.
+// Splits at the median of the longest axis until a chunk has at most `triangles`. Within a chunk triangles keep their order.
 Chunks chunksOf(const scene::Primitive& primitive, size_t triangles);
 
 }  // namespace obscura::render

@@ -16,8 +16,8 @@ Status Deform::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, De
     return gpu::Program::compute(device, shaders, "scene/deform.comp", {}, out.m_program);
 }
 
-// Larger buffers that hold what the old ones did: nobody else's history is lost when an instance joins. Posed frames have
-// no history, but those of a pose at rest are not written again either, so the last ones are moved too.
+// Allocates larger buffers and copies the old contents, so that other instances keep last frame's positions when one is added. Tangent
+// frames are copied too: those of unchanged poses are not written again.
 Status Deform::grow(graph::Graph& graph, uint32_t vertices) {
     gpu::Buffer old[3] = {std::move(m_positions[0]), std::move(m_positions[1]), std::move(m_frames)};
     gpu::Buffer* fresh[3] = {&m_positions[0], &m_positions[1], &m_frames};
@@ -36,7 +36,7 @@ Status Deform::grow(graph::Graph& graph, uint32_t vertices) {
         });
     }
     m_capacity = vertices;
-    return Status::ok;  // `old` dies here; the device keeps it until this frame has left the GPU
+    return Status::ok;  // `old` is destroyed here; the device defers this until the GPU has finished the frame
 }
 
 Deform::Posed Deform::add(graph::Graph& graph, const Actors& actors) {

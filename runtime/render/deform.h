@@ -1,5 +1,5 @@
-// Morphing and skinning on the GPU: one compute pass writes the posed vertices of everything that deforms. Two position
-// buffers take turns, so that last frame's stay for motion vectors.
+// Morphing and skinning on the GPU: one compute pass writes the posed vertices of all deformed primitives. Positions are double-buffered:
+// motion vectors need last frame's.
 #pragma once
 
 #include "graph/graph.h"
@@ -17,7 +17,7 @@ public:
         graph::BufferId now, before, frames;
         PosedBuffers buffers;
     };
-    // `actors` must keep its jobs until the graph has run.
+    // `actors` must not be updated until the graph has been executed.
     Posed add(graph::Graph& graph, const Actors& actors);
     void forget(const ModelGpu& model) { m_rest.forget(model); }
 

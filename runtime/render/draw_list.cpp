@@ -25,8 +25,7 @@ shared::DrawItem itemOf(const Drawable& drawable, const CameraPair& camera, cons
     const glm::mat3 m(eye);
     const float side = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
     const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    // Keep the interpolated normal's length near one: the fragment shader normalizes, but halves and fast math do not like
-    // the squares of small scales.
+    // Keeps the length of interpolated normals near 1: the fragment shader normalizes, but the squares of small scales lose precision.
     const float scale = side / std::max(std::cbrt(std::abs(glm::determinant(cofactors))), 1e-20f);
     for (int r = 0; r < 3; ++r) {
         item.eye[r] = rowOf(eye, r);
@@ -36,7 +35,7 @@ shared::DrawItem itemOf(const Drawable& drawable, const CameraPair& camera, cons
     item.normal[0].w = still ? 1.0f : 0.0f;
     item.normal[1].w = side;
     const scene::Shell shell = drawable.primitive->material->shell;
-    const float number = float((drawable.primitive->part + 37 * drawable.model->serial) % 63 + 1);
+    const float number = float((drawable.primitive->primitiveIndex + 37 * drawable.model->serial) % 63 + 1);
     item.normal[2].w = shell == scene::Shell::sheet ? 0.0f : shell == scene::Shell::flipped ? -number : number;
     return item;
 }
@@ -51,7 +50,7 @@ Frustum::Frustum(const glm::mat4& clip) {
     std::copy(std::begin(planes), std::end(planes), m_planes);
 }
 
-bool Frustum::meets(const scene::Bounds& box) const {
+bool Frustum::intersects(const scene::Bounds& box) const {
     if (box.empty) return false;
     for (const glm::vec4& plane : m_planes) {
         const glm::vec3 n(plane);
@@ -74,10 +73,10 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
         ++list.drawables;
         const AlphaMode mode = drawable.primitive->material->alphaMode;
         if (options.skipMasked && mode == AlphaMode::mask) continue;
-        if (options.cull && !frustum.meets(drawable.bounds)) continue;
+        if (options.cull && !frustum.intersects(drawable.bounds)) continue;
         list.drawn += triangles;
         const float distance = distanceTo(drawable.bounds, camera.eye);
-        // Half octaves: near to far where it saves shading, by material and primitive within.
+        // Half octaves of distance: near to far to save shading; within one, by material and primitive.
         groups[size_t(mode)].push_back({&drawable, distance, int(2.0f * std::log2(std::max(distance, 0.05f)))});
     }
     const auto key = [](const Entry& e) {
@@ -107,7 +106,8 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
             out[mode]->push_back({&drawable, item, 1});
         }
     }
-    std::copy_if(list.opaque.begin(), list.opaque.end(), std::back_inserter(list.dear), [](const Draw& draw) { return mapsOf(*draw.first->primitive->material) != 0; });
+    std::copy_if(list.opaque.begin(), list.opaque.end(), std::back_inserter(list.textured),
+                 [](const Draw& draw) { return mapsOf(*draw.first->primitive->material) != 0; });
     return list;
 }
 

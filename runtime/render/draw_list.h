@@ -1,4 +1,4 @@
-// Which drawables are drawn, in which order, with what matrices. Plain CPU work.
+// Builds the frame's draws on the CPU: culling, order, instancing, matrices; and records them.
 #pragma once
 
 #include "render/actors.h"
@@ -18,13 +18,13 @@ struct CameraPair {
 class Frustum {
 public:
     explicit Frustum(const glm::mat4& clipFromWorld);
-    bool meets(const scene::Bounds& box) const;
+    bool intersects(const scene::Bounds& box) const;
 
 private:
     glm::vec4 m_planes[6];
 };
 
-// One call: `count` instances of a primitive, their items in a row.
+// One draw call: `count` instances of a primitive, with consecutive items.
 struct Draw {
     const Drawable* first = nullptr;
     uint32_t item = 0, count = 1;
@@ -32,7 +32,7 @@ struct Draw {
 
 struct DrawList {
     std::vector<Draw> opaque, masked, blended;  // near to far; blended far to near
-    std::vector<Draw> dear;                     // of opaque: textured, so worth knowing to be seen before they are shaded
+    std::vector<Draw> textured;                 // subset of opaque, drawn in the depth prepass
     std::vector<shared::DrawItem> items;
     size_t drawables = 0, triangles = 0, drawn = 0;  // drawn: triangles after culling
     size_t draws() const { return opaque.size() + masked.size() + blended.size(); }
@@ -46,15 +46,15 @@ struct DrawOptions {
 // `drawables` must outlive the list.
 DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camera, const DrawOptions& options);
 
-// Records draws whose pipeline and set 0 are bound. `posed`: positions now, before, frames; `streams` says which of the
-// vertex bindings (position, previous, frame, coords) the pipeline has.
+// Records draws; pipeline and descriptor set 0 must be bound. `posed`: positions of this and last frame, tangent frames. `streams`: the
+// pipeline's vertex bindings, as Streams.
 struct PosedBuffers { VkBuffer now = VK_NULL_HANDLE, before = VK_NULL_HANDLE, frames = VK_NULL_HANDLE; };
 enum Streams : uint32_t { kPosition = 1, kPrevious = 2, kFrame = 4, kCoords = 8 };
 using BindMaterial = std::function<void(const ModelGpu& model, uint32_t material)>;
 void recordDraws(VkCommandBuffer cmd, const gpu::Api& vk, std::span<const Draw> draws, const PosedBuffers& posed, uint32_t streams,
                  bool cullBackFaces, const BindMaterial& bindMaterial);
 
-// Rows of a 3x4 matrix as shaders want them.
+// A row of a matrix, for the 3x4 matrices of shaders.
 shared::vec4 rowOf(const glm::mat4& matrix, int row);
 
 }  // namespace obscura::render

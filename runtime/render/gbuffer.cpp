@@ -39,11 +39,11 @@ GBuffer GBufferPass::add(graph::Graph& graph, VkExtent2D size, graph::BufferId f
                     image("base colour", kBaseColor), image("material", kMaterial), image("emission", kEmission)};
     const VkClearColorValue zero{};
     std::optional<float> far = 0.0f;
-    if (!list.dear.empty()) {
-        graph::Pass& first = graph.pass("depth", m_depth).read(frame).read(items);
-        if (posed.now) first.use(posed.now, graph::Access::vertex);
-        first.depth(g.depth, far).record([&list, posed](const graph::PassContext& c) {
-            recordDraws(c.cmd, c.device.vk(), list.dear, posed.buffers, kPosition, true, nullptr);
+    if (!list.textured.empty()) {
+        graph::Pass& prepass = graph.pass("depth", m_depth).read(frame).read(items);
+        if (posed.now) prepass.use(posed.now, graph::Access::vertex);
+        prepass.depth(g.depth, far).record([&list, posed](const graph::PassContext& c) {
+            recordDraws(c.cmd, c.device.vk(), list.textured, posed.buffers, kPosition, true, nullptr);
         });
         far.reset();
     }

@@ -1,4 +1,4 @@
-// The G-buffer: opaque and masked surfaces. Depth, geometric normals and motion cover the guard band, the rest does not.
+// The G-buffer of opaque and masked surfaces. Depth, geometric normals and motion include the guard band, the other images do not.
 #pragma once
 
 #include "graph/graph.h"
@@ -11,9 +11,9 @@ struct GBuffer {
     graph::ImageId depth;      // D32, reversed
     graph::ImageId geometric;  // R32UI, packNormal(), eye space, facing the viewer
     graph::ImageId shaded;     // likewise, interpolated and normal-mapped
-    graph::ImageId motion;     // RG16F, px to last frame's position; 0 where nothing is
+    graph::ImageId motion;     // RG16F, px to last frame's position; sky: 0
     graph::ImageId baseColor;  // RGBA8 sRGB, alpha: occlusion map
-    graph::ImageId material;   // RGBA8: roughness, metalness, unlit, which side of which solid (shaders/scene/face.glsl)
+    graph::ImageId material;   // RGBA8: roughness, metalness, unlit, face (side and solid, shaders/scene/face.glsl)
     graph::ImageId emission;   // B10G11R11F
 };
 
@@ -24,7 +24,7 @@ class GBufferPass {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, GBufferPass& out);
     gpu::Status prepare(const scene::Material& material) { return m_surface.prepare(material); }
-    // `list` must stay until the graph has run. `frame`: SceneFrame, `items`: DrawItem.
+    // `list` must stay valid until the graph has been executed. `frame`: SceneFrame, `items`: DrawItem.
     GBuffer add(graph::Graph& graph, VkExtent2D size, graph::BufferId frame, graph::BufferId items, const DrawList& list,
                 const Deform::Posed& posed, Materials& materials);
 

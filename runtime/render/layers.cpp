@@ -9,7 +9,7 @@ using gpu::Status;
 
 constexpr VkFormat kHit = VK_FORMAT_R32_UINT, kDepth = VK_FORMAT_D32_SFLOAT;
 
-struct ResolveConstants { uint32_t hits, asked; };  // resolve.comp
+struct ResolveConstants { uint32_t hits, secondLayer; };  // of resolve.comp
 
 }  // namespace
 
@@ -17,15 +17,15 @@ LayerForm FormTrial::next(const graph::Timings& arrived) {
     if (m_chosen != LayerForm::best) return m_chosen;
     if (arrived.frame != m_seen) {
         double ms[2] = {};
-        bool whole[2] = {};
+        bool complete[2] = {};  // all passes of the form were timed
         for (const graph::PassTime& pass : arrived.passes) {
             const bool ladder = pass.name == "layers.clear" || pass.name == "layers.ladder";
             if (ladder || pass.name.ends_with(" hit")) ms[ladder] += pass.milliseconds;
-            whole[0] |= pass.name == "layers.fourth hit";
-            whole[1] |= pass.name == "layers.ladder";
+            complete[0] |= pass.name == "layers.fourth hit";
+            complete[1] |= pass.name == "layers.ladder";
         }
         for (int form = 0; form < 2; ++form)
-            if (whole[form] && m_timed[form]++ > 0) m_least[form] = std::min(m_least[form], ms[form]);
+            if (complete[form] && m_timed[form]++ > 0) m_least[form] = std::min(m_least[form], ms[form]);
         m_seen = arrived.frame;
     }
     if (std::min(m_timed[0], m_timed[1]) >= kEach) m_chosen = m_least[0] < m_least[1] ? LayerForm::peeling : LayerForm::ladder;
@@ -57,7 +57,7 @@ Status LayersPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
         gpu::GraphicsState ladder;
         ladder.depthFormat = kDepth;
         ladder.depthTest = true;
-        ladder.depthCompare = VK_COMPARE_OP_LESS;  // reversed: behind what is seen
+        ladder.depthCompare = VK_COMPARE_OP_LESS;  // reversed depth: behind the visible surface
         status = createPair(device, shaders, "ladder", ladder, {}, out.m_ladder);
     }
     return status == Status::ok ? gpu::Program::compute(device, shaders, "scene/layers/resolve.comp", {}, out.m_resolve) : status;
@@ -78,15 +78,16 @@ void LayersPass::draw(graph::Pass& pass, Pair& programs, const DrawList& list, c
     });
 }
 
-ao::LayerSources LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::BufferId frame, graph::BufferId items, const DrawList& list,
-                                 const Deform::Posed& posed, Materials& materials, ao::LayerUse use, LayerForm form) {
+ao::LayerInputs LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::BufferId frame, graph::BufferId items, const DrawList& list,
+                                 const Deform::Posed& posed, Materials& materials, ao::LayerMode use, LayerForm form) {
     const uint32_t width = graph.desc(g.depth).width, height = graph.desc(g.depth).height;
-    const bool second = use != ao::LayerUse::first, half = use == ao::LayerUse::secondHalf;
+    const bool second = use != ao::LayerMode::first, half = use == ao::LayerMode::secondHalf;
     if (form == LayerForm::best && second && m_canWrite) {
-        const bool open = m_trial.chosen() == LayerForm::best;
+        const bool undecided = m_trial.chosen() == LayerForm::best;
         form = m_trial.next(graph.timings());
-        if (open && m_trial.chosen() != LayerForm::best)
-            graph.device().log(gpu::Severity::info, std::string("layers: two surfaces are drawn by ") + (form == LayerForm::ladder ? "the ladder" : "peeling"));
+        if (undecided && m_trial.chosen() != LayerForm::best)
+            graph.device().log(gpu::Severity::info, std::string("layers: two depth layers are drawn by ") +
+                                                        (form == LayerForm::ladder ? "the ladder" : "peeling") + ", the faster form here");
     }
     const bool ladder = m_canWrite && form == LayerForm::ladder;
     const char* const names[] = {"layers.second hit", "layers.third hit", "layers.fourth hit"};
@@ -116,9 +117,9 @@ ao::LayerSources LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::B
         }
     }
     for (graph::ImageId& hit : hits)
-        if (!hit) hit = hits[0];  // bound, not read
+        if (!hit) hit = hits[0];  // bound but not read
 
-    ao::LayerSources layers;
+    ao::LayerInputs layers;
     layers.thickness = graph.image("layers.thickness", {VK_FORMAT_R16_SFLOAT, width, height});
     const graph::ImageId behind = graph.image("layers.second", {VK_FORMAT_R32G32_SFLOAT, !second ? 1 : half ? (width + 1) / 2 : width,
                                                                 !second ? 1 : half ? (height + 1) / 2 : height});

@@ -1,6 +1,6 @@
-// Depth layers: what lies behind the visible surface. The first four hits of a view ray, whatever way they face, tell how
-// thick what is seen is, and what comes next. Drawn by peeling (a pass for each hit, on any device) or by a ladder of atomic
-// maxima (one pass, where fragment shaders may write).
+// Depth layers behind the visible surface: its thickness, and the second layer with its thickness. They are computed from the first four
+// hits of each view ray, front or back faces. Two ways to draw the hits: peeling (a geometry pass per hit, any device), or the ladder (one
+// geometry pass that sorts hits by atomic maxima, on devices with fragmentStoresAndAtomics).
 #pragma once
 
 #include "render/gbuffer.h"
@@ -8,15 +8,15 @@
 
 namespace obscura::render {
 
-// Which form is cheaper on this device, found by use: the first frames that want two surfaces are drawn by either in turns, as the same
-// pictures, and when timestamps of each have arrived twice, first frames aside, which compile, the cheaper one stays.
+// Chooses the faster form on this device for two layers. The first frames alternate between the forms, which give the same images. After
+// two timed frames of each, not counting its first (which compiles shaders), the faster form is kept.
 class FormTrial {
 public:
-    LayerForm next(const graph::Timings& arrived);  // of the frame being declared
-    LayerForm chosen() const { return m_chosen; }   // best: not yet
+    LayerForm next(const graph::Timings& arrived);  // form of the frame being declared
+    LayerForm chosen() const { return m_chosen; }   // best: undecided
 
 private:
-    static constexpr int kEach = 3, kMost = 24;     // frames of each form; after so many without timestamps it is the ladder
+    static constexpr int kEach = 3, kMost = 24;     // timed frames of each form; after kMost frames without timestamps: the ladder
     LayerForm m_chosen = LayerForm::best;
     uint64_t m_seen = 0;
     int m_declared = 0, m_timed[2] = {};            // by form: peeling, ladder
@@ -26,13 +26,13 @@ private:
 class LayersPass {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayersPass& out);
-    // As ao::DepthLayers describes them, guard band included; no second one with LayerUse::first. Where two surfaces are asked for, both
-    // forms find three hits and the same pictures to the bit. Where one is, peeling finds a single hit and takes what holds another solid
-    // for a sheet; the ladder still finds three, and with them where that ends. LayerForm::best is peeling for one surface, else what a
-    // trial on this device has found cheaper. Where fragments cannot write, the ladder is peeling.
-    // `list` must stay until the graph has run.
-    ao::LayerSources add(graph::Graph& graph, const GBuffer& gbuffer, graph::BufferId frame, graph::BufferId items, const DrawList& list,
-                         const Deform::Posed& posed, Materials& materials, ao::LayerUse use, LayerForm form);
+    // Images as in ao::DepthLayers, guard band included; no second layer with LayerMode::first. For two layers both forms find three hits
+    // behind the visible one and give the same images to the bit. For the first layer only, peeling finds one hit, so that a solid that
+    // contains another one becomes a sheet; the ladder still finds three. LayerForm::best is peeling for the first layer, else the choice
+    // of FormTrial. Without fragment writes the ladder is replaced by peeling.
+    // `list` must stay valid until the graph has been executed.
+    ao::LayerInputs add(graph::Graph& graph, const GBuffer& gbuffer, graph::BufferId frame, graph::BufferId items, const DrawList& list,
+                         const Deform::Posed& posed, Materials& materials, ao::LayerMode use, LayerForm form);
 
 private:
     struct Pair { gpu::Program solid, masked; };
@@ -41,7 +41,7 @@ private:
     void draw(graph::Pass& pass, Pair& programs, const DrawList& list, const Deform::Posed& posed, Materials& materials);
 
     bool m_canWrite = false;
-    Pair m_peel, m_peelOn[2], m_ladder;  // on: of several, those behind a hit and the first
+    Pair m_peel, m_peelOn[2], m_ladder;  // m_peel: first layer only; m_peelOn: of three peels, the later ones [0] and the first [1]
     FormTrial m_trial;
     gpu::Program m_resolve;
 };

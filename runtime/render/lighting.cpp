@@ -47,7 +47,7 @@ gpu::Status Lighting::create(gpu::Device& device, const gpu::ShaderLibrary& shad
 graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& materials) {
     const shared::View& view = in.view;
     const graph::BufferId light = graph.upload("lighting", blockOf(in, graph.desc(in.shadow.image).width));
-    // As large as the depth buffer, so that blended surfaces can be tested against it; lit only where it is visible.
+    // As large as the depth buffer, which blended surfaces are tested against; lit in the visible part only.
     const graph::ImageId lit = graph.image("lit", {kLit, view.size.x, view.size.y});
     const GBuffer& g = in.gbuffer;
     graph.pass("lighting", m_light).read(light).read(g.depth).read(g.geometric).read(g.shaded).read(g.baseColor).read(g.material).read(g.emission)

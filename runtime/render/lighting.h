@@ -1,4 +1,4 @@
-// From G-buffer, visibility and shadow map to a picture: lighting, blended surfaces over it, tone mapping.
+// Lighting from G-buffer, visibility and shadow map, then blended surfaces, then tone mapping.
 #pragma once
 
 #include "render/gbuffer.h"
@@ -26,7 +26,7 @@ public:
         const DrawList* draws = nullptr;
         Deform::Posed posed;
     };
-    // Returns the picture, visible size. `draws` must stay until the graph has run.
+    // Returns the tone-mapped image, visible size. `draws` must stay valid until the graph has been executed.
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, Materials& materials);
 
 private:

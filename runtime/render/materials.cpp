@@ -96,7 +96,7 @@ VkDescriptorSet Materials::make(const ModelGpu& model, uint32_t material, const 
     const VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, sets.pool, 1, &layout};
     VkDescriptorSet set = VK_NULL_HANDLE;
     if (sets.pool == VK_NULL_HANDLE || m_device->vk().AllocateDescriptorSets(m_device->handle(), &allocate, &set) != VK_SUCCESS) {
-        m_device->log(gpu::Severity::error, "render: no descriptor set for a material of " + model.model->name);
+        m_device->log(gpu::Severity::error, "render: cannot allocate the descriptor set of a material of " + model.model->name);
         return VK_NULL_HANDLE;
     }
     const scene::Material& source = model.model->materials[material];

@@ -16,16 +16,16 @@ public:
     Materials(const Materials&) = delete;
     Materials& operator=(const Materials&) = delete;
 
-    // Null, once logged, when the pool is exhausted. The set fits the program's layout of set 1 and is made when first
-    // asked for; a program whose bindings a hot reload changed gets new ones.
+    // The set for the program's layout of set 1, created at first use, and again if a hot reload changed the bindings. Null, with a log
+    // line, if it cannot be allocated.
     VkDescriptorSet get(const ModelGpu& model, uint32_t material, const gpu::Program& program);
-    void forget(const ModelGpu& model);  // before the model goes
+    void forget(const ModelGpu& model);  // call it before the model is destroyed
 
 private:
     struct Sets {
         VkDescriptorPool pool = VK_NULL_HANDLE;
-        std::vector<gpu::Binding> bindings;  // of the layout they were made for
-        std::vector<VkDescriptorSet> sets;   // one a material, null until asked for
+        std::vector<gpu::Binding> bindings;  // of the sets' layout
+        std::vector<VkDescriptorSet> sets;   // one per material, null until used
     };
     VkDescriptorSet make(const ModelGpu& model, uint32_t material, const gpu::Program& program, Sets& sets);
     VkSampler samplerOf(const scene::Sampler& sampler);
@@ -38,16 +38,16 @@ private:
 // Which of the five texture slots a material fills, as bits.
 uint32_t mapsOf(const scene::Material& material);
 
-// A pair of shaders in as many pipelines as the materials in use differ in kind: textures they have, holes. Specialization
-// constants 0 (masked) and 1 (maps). All variants share their layouts.
+// A vertex and a fragment shader, with a pipeline for each kind of material: specialization constants 0 (alpha-masked) and 1 (texture
+// slots). All pipelines share their layouts.
 class MaterialProgram {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, std::string vertex, std::string fragment,
                               gpu::GraphicsState state, MaterialProgram& out);
-    // Makes the pipeline a material needs, so that drawing need not wait for it.
+    // Creates the pipeline of a material ahead of its first draw.
     gpu::Status prepare(const scene::Material& material);
 
-    gpu::Program& base() { return m_base; }  // for the graph: the layouts, set 0
+    gpu::Program& base() { return m_base; }  // for the graph: layouts and set 0
     // Binds pipeline and set 1 for a material. `bound` remembers the pipeline between calls within a pass.
     void bind(VkCommandBuffer cmd, const ModelGpu& model, uint32_t material, Materials& materials, VkPipeline& bound);
 

@@ -18,7 +18,7 @@ using gpu::Status;
 
 constexpr size_t kChunkTriangles = 2048;
 
-// Bytes of one buffer to be, grown part by part.
+// Contents of a buffer, appended array by array.
 struct Blob {
     std::vector<std::byte> bytes;
     template <class T> VkDeviceSize add(const std::vector<T>& items) {
@@ -29,7 +29,7 @@ struct Blob {
     }
 };
 
-struct Frame { uint64_t normal, tangent; };                    // as the vertex stream has it
+struct Frame { uint64_t normal, tangent; };                    // vertex stream format: snorm16 x 4 each
 struct Coords { glm::vec2 uv0, uv1; uint64_t color; };
 static_assert(sizeof(Frame) == kFrameBytes && sizeof(Coords) == kCoordsBytes);
 
@@ -105,7 +105,7 @@ shared::MaterialBlock blockOf(const scene::Material& material) {
     for (uint32_t slot = 0; slot < 5; ++slot) {
         const scene::TextureUse& use = *uses[slot];
         if (use.texCoord == 1) block.flags.x |= 1u << slot;
-        // Counter-clockwise as seen, that is with v pointing down [KHR_texture_transform].
+        // Counter-clockwise with v pointing down [KHR_texture_transform].
         const float c = std::cos(use.rotation), s = std::sin(use.rotation);
         block.uvMatrix[slot] = {c * use.scale.x, -s * use.scale.x, s * use.scale.y, c * use.scale.y};
         block.uvOffset[slot] = {use.offset.x, use.offset.y, 0, 0};
@@ -114,8 +114,8 @@ shared::MaterialBlock blockOf(const scene::Material& material) {
 }
 
 Status fill(gpu::Device& device, const std::vector<std::byte>& bytes, VkBufferUsageFlags usage, const std::string& name, gpu::Buffer& out) {
-    static constexpr std::byte kNothing[16]{};  // bindings want a buffer, however empty
-    const std::span<const std::byte> content = bytes.empty() ? std::span<const std::byte>(kNothing) : std::span(bytes);
+    static constexpr std::byte kPlaceholder[16]{};  // descriptors need a buffer even without contents
+    const std::span<const std::byte> content = bytes.empty() ? std::span<const std::byte>(kPlaceholder) : std::span(bytes);
     const Status status = gpu::Buffer::create(device, content.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, name.c_str(), out);
     return status == Status::ok ? gpu::upload(device, out, content) : status;
 }
@@ -123,15 +123,15 @@ Status fill(gpu::Device& device, const std::vector<std::byte>& bytes, VkBufferUs
 Status addImages(gpu::Device& device, ModelGpu& out) {
     for (const scene::Image& image : out.model->images) {
         static const std::vector<uint8_t> kWhite(4, 255);
-        const bool good = image.width > 0 && image.height > 0 && image.rgba.size() == size_t(image.width) * image.height * 4 &&
+        const bool valid = image.width > 0 && image.height > 0 && image.rgba.size() == size_t(image.width) * image.height * 4 &&
                           std::max(image.width, image.height) <= device.caps().maxImageSize;
-        const uint32_t width = good ? image.width : 1, height = good ? image.height : 1;
+        const uint32_t width = valid ? image.width : 1, height = valid ? image.height : 1;
         gpu::ImageDesc desc{image.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM, width, height};
         desc.mips = uint32_t(std::bit_width(std::max(width, height)));
         desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
         gpu::Image made;
         Status status = gpu::Image::create(device, desc, (out.model->name + "/" + image.name).c_str(), made);
-        const std::vector<uint8_t>& texels = good ? image.rgba : kWhite;
+        const std::vector<uint8_t>& texels = valid ? image.rgba : kWhite;
         if (status == Status::ok) status = gpu::upload(device, made, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         if (status != Status::ok) return status;
         out.textureBytes += made.bytes();
@@ -146,14 +146,14 @@ Status ModelGpu::create(gpu::Device& device, std::shared_ptr<const scene::Model>
     out.model = std::move(source);
     const scene::Model& model = *out.model;
     Blob vertices, indices, rest, influences, targets, materials;
-    uint32_t serial = 0, part = 0;
+    uint32_t serial = 0, primitiveIndex = 0;
 
     for (const scene::Mesh& mesh : model.meshes) {
         std::vector<PrimitiveGpu>& primitives = out.meshes.emplace_back();
         for (const scene::Primitive& primitive : mesh.primitives) {
             PrimitiveGpu gpu;
             gpu.source = &primitive;
-            gpu.part = part++;
+            gpu.primitiveIndex = primitiveIndex++;
             gpu.materialIndex = uint32_t(primitive.material);
             gpu.material = &model.materials[size_t(primitive.material)];
             gpu.vertexCount = uint32_t(primitive.positions.size());

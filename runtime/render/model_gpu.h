@@ -1,4 +1,4 @@
-// The GPU copy of a scene::Model: vertex streams, indices, textures, what deformation reads. Made once, immutable.
+// The GPU copy of a scene::Model: vertex streams, indices, textures, inputs of deformation. Immutable.
 #pragma once
 
 #include <memory>
@@ -24,14 +24,14 @@ struct PrimitiveGpu {
     VkDeviceSize indices = 0;                            // byte offset into `indices`
     bool skinned = false, morphed = false;
     scene::Bounds bounds;                                // of the rest positions its triangles use
-    uint32_t serial = 0;                                 // in its model
-    uint32_t part = 0;                                   // of the primitive it is a chunk of, likewise
+    uint32_t serial = 0;                                 // index among the model's chunks
+    uint32_t primitiveIndex = 0;                         // index of its primitive among the model's primitives
 
     // Deformed primitives only, in the units of scene/deform.comp.
     uint32_t restPositions = 0, restFrames = 0, influences = ~0u, targets = 0;
     struct JointBox { uint32_t joint; scene::Bounds box; };
-    std::vector<JointBox> jointBoxes;     // rest positions each joint pulls at
-    std::vector<glm::vec3> targetReach;   // the largest displacement by axis, per morph target
+    std::vector<JointBox> jointBoxes;     // bounds of the rest positions that each joint influences
+    std::vector<glm::vec3> targetReach;   // largest displacement per axis, for each morph target
 
     bool deformed() const { return skinned || morphed; }
 };
@@ -43,13 +43,13 @@ public:
     std::shared_ptr<const scene::Model> model;
     std::vector<std::vector<PrimitiveGpu>> meshes;  // as Model::meshes: their primitives, in chunks
     gpu::Buffer vertices, indices;
-    gpu::Buffer rest, influences, targets;          // empty when nothing deforms
+    gpu::Buffer rest, influences, targets;          // of deformed primitives; 16 unused bytes without
     gpu::Buffer materials;                          // MaterialBlock every kMaterialStride bytes
     std::vector<gpu::Image> images;                 // as Model::images
     uint64_t textureBytes = 0, geometryBytes = 0;
-    uint32_t serial = 0;                            // of its renderer: sorts the same every time
+    uint32_t serial = 0;                            // order of loading, for a deterministic sort
 
-    static constexpr VkDeviceSize kMaterialStride = 256;  // the largest alignment Vulkan lets a device ask for
+    static constexpr VkDeviceSize kMaterialStride = 256;  // upper bound of minUniformBufferOffsetAlignment in Vulkan
 };
 
 }  // namespace obscura::render

@@ -1,4 +1,4 @@
-// Descriptor sets of storage buffers, one a model, for compute passes that read what a model keeps on the GPU.
+// Descriptor sets of storage buffers, one per model, for compute passes that read a model's buffers.
 #pragma once
 
 #include <initializer_list>
@@ -14,7 +14,7 @@ public:
     ~ModelSets();
     ModelSets(const ModelSets&) = delete;
 
-    // The model's set, made when first asked for; bindings from 0 on are the buffers, whole. Null when there is no memory for it.
+    // The model's set, created at first use; bindings 0, 1, ... are the buffers. Null if it cannot be allocated.
     VkDescriptorSet of(gpu::Device& device, VkDescriptorSetLayout layout, const ModelGpu& model, std::initializer_list<const gpu::Buffer*> buffers);
     void forget(const ModelGpu& model);
 

@@ -1,5 +1,5 @@
-// The frame: models and poses brought up to date, then passes in order - deform, G-buffer, obscurance, shadow, lighting,
-// blending, tone mapping or a view.
+// The frame: updates models and poses, then adds the passes in order: deform, G-buffer, obscurance, shadow, lighting, blending, tone
+// mapping or a view.
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct Renderer::Impl {
     gpu::Device& device;
     const gpu::ShaderLibrary& shaders;
     ao::Library library;
-    std::unique_ptr<ao::Library> other;      // of the second side; null until one is wanted
-    std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;  // null: could not be uploaded, said once
+    std::unique_ptr<ao::Library> other;      // of B; null until used
+    std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;  // null: could not be uploaded, logged once
     uint32_t modelSerial = 0;
     Actors actors;
     Materials materials;
@@ -78,7 +78,8 @@ shared::SceneFrame sceneFrame(const CameraPair& camera, VkExtent2D size, VkExten
     std::memcpy(&frame.projection, &camera.projection, sizeof(frame.projection));
     const float w = float(size.width), h = float(size.height);
     frame.viewport = {w, h, 0.5f * w, 0.5f * h};
-    frame.shown = {float(guard.width / 2), float(guard.height / 2), float((size.width - guard.width + 1) / 2), float((size.height - guard.height + 1) / 2)};
+    frame.visibleQuads = {float(guard.width / 2), float(guard.height / 2), float((size.width - guard.width + 1) / 2),
+                          float((size.height - guard.height + 1) / 2)};
     frame.orthographic = {camera.orthographic ? 1.0f : 0.0f, 0, 0, 0};
     return frame;
 }
@@ -101,7 +102,7 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
     if (status == Status::ok) status = Views::create(device, shaders, impl.views);
     if (status == Status::ok) status = VoxelVolume::create(device, shaders, impl.voxels);
     if (status == Status::ok) return renderer;
-    device.log(gpu::Severity::error, std::string("render: the renderer cannot be made: ") + gpu::name(status));
+    device.log(gpu::Severity::error, std::string("render: the renderer could not be created: ") + gpu::name(status));
     return nullptr;
 }
 
@@ -129,7 +130,8 @@ Status Renderer::Impl::load(const scene::World& world) {
         auto made = std::make_unique<ModelGpu>();
         const Status status = ModelGpu::create(device, instance.model, *made);
         if (status != Status::ok) {
-            device.log(gpu::Severity::error, "render: cannot upload " + instance.model->name + ", it is left out: " + gpu::name(status));
+            device.log(gpu::Severity::error,
+                       "render: " + instance.model->name + " could not be uploaded and is not drawn: " + gpu::name(status));
             models.emplace(instance.model.get(), nullptr);
             worst = status;
             continue;
@@ -149,7 +151,7 @@ CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size,
     CameraPair pair;
     pair.view = camera.view();
     pair.projection = camera.projection(whole, shown);
-    // Last frame's lens on this frame's image: a new size or guard band is not motion.
+    // Last frame's camera with this frame's image size: a change of size or guard band is not motion.
     const scene::Camera& before = cut || !lastCamera ? camera : *lastCamera;
     pair.previousView = before.view();
     pair.previousProjection = before.projection(whole, shown);
@@ -163,25 +165,28 @@ ao::Library& Renderer::Impl::otherSide() {
     return *other;
 }
 
-// Both sides prepare their inputs and keep their histories for themselves: the time of a side's passes is what it would cost alone.
+// Each side prepares its own inputs and has its own history, so its passes take the time that they take without the other side.
 ao::Inputs Renderer::Impl::obscurance(graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out) {
-    ao::Inputs prepared;
-    const auto run = [&](ao::Library& of, const ao::Values& values, ao::Inputs* inputs) {
-        const graph::ImageId visibility = of.add(graph, frame, sources, options.falloff, values, inputs);
-        return visibility ? visibility : ao::allOpen(graph, options.visible, "no visibility");  // the library has said why
+    const auto run = [&](ao::Library& of, const ao::Values& values) {
+        ao::Library::Added added = of.add(graph, frame, sources, options.falloff, values);
+        if (!added.visibility) added.visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has logged why
+        return added;
     };
     if (!options.compare) {
-        if (other) other->reset();  // whatever it remembers will be old when it is wanted again
-        out.visibility = out.sides[0] = run(library, *options.method, &prepared);
-        return prepared;
+        if (other) other->discardHistory();  // it would be outdated when used again
+        const ao::Library::Added only = run(library, *options.method);
+        out.visibility = out.sides[0] = only.visibility;
+        return only.inputs;
     }
     graph.prefix("A.");
-    out.sides[0] = run(library, *options.method, &prepared);
+    const ao::Library::Added left = run(library, *options.method);
     graph.prefix("B.");
-    out.sides[1] = run(otherSide(), *options.compare, nullptr);
+    const ao::Library::Added right = run(otherSide(), *options.compare);
     graph.prefix("");
+    out.sides[0] = left.visibility;
+    out.sides[1] = right.visibility;
     out.visibility = views.split(graph, out.sides[0], out.sides[1], options.split);
-    return prepared;
+    return left.inputs;
 }
 
 void Renderer::Impl::count(const scene::World& world) {
@@ -202,8 +207,8 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     impl.load(world);
     const bool cut = options.cut || !impl.lastCamera;
     if (cut) {
-        impl.library.reset();
-        if (impl.other) impl.other->reset();
+        impl.library.discardHistory();
+        if (impl.other) impl.other->discardHistory();
         impl.frame = 0;
     }
     const VkExtent2D guard = guardOf(options);
@@ -223,10 +228,11 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
 
     ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
     ao::Sources sources{g.depth, g.geometric, g.motion};
+    sources.packed = true;
     const bool showsLayers = options.view == View::thickness || options.view == View::second || options.view == View::secondThickness;
-    const ao::LayerUse use = std::max({ao::layersOf(*options.method), options.compare ? ao::layersOf(*options.compare) : ao::LayerUse::none,
-                                       showsLayers ? ao::LayerUse::second : ao::LayerUse::none});
-    if (use != ao::LayerUse::none)
+    const ao::LayerMode use = std::max({ao::layerModeOf(*options.method), options.compare ? ao::layerModeOf(*options.compare) : ao::LayerMode::none,
+                                       showsLayers ? ao::LayerMode::second : ao::LayerMode::none});
+    if (use != ao::LayerMode::none)
         sources.layers = impl.layers.add(graph, g, frame, items, impl.draws, posed, impl.materials, use, options.layerForm);
     const uint32_t needs = ao::needs(*options.method) | (options.compare ? ao::needs(*options.compare) : 0);
     if ((needs & ao::kVolume) || isVoxels(options.view)) {

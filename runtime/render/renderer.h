@@ -1,5 +1,5 @@
-// The sample's renderer: from a World and a Camera to a picture, as passes of a render graph. Owns the GPU copies of
-// models and whatever outlives a frame; changes nothing it is given.
+// The sample's renderer: renders a World with a Camera, as passes of a render graph. Owns the GPU copies of models and all state that
+// outlives a frame; does not modify its inputs.
 #pragma once
 
 #include <memory>
@@ -20,38 +20,37 @@ enum class View : uint8_t {
     voxels, voxelSlice, difference, signedDifference,
     history, rejected, pass
 };
-// "final", "visibility", ... and "pass:NAME" (what the graph's pass NAME wrote); false when unknown.
+// "final", "visibility", ..., or "pass:NAME" (the first image that the graph's pass NAME writes); false if unknown.
 bool parseView(const std::string& text, View& view, std::string& pass);
 const char* name(View view);
 inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
                                   View::baseColor, View::roughness, View::metalness, View::emission,
                                   View::thickness, View::second, View::secondThickness, View::voxels, View::voxelSlice, View::difference, View::signedDifference,
                                   View::history, View::rejected};
-// Of the volume, which is then made whether a method needs it or not.
+// Views of the volume; the volume is then made even if no method needs it.
 constexpr bool isVoxels(View view) { return view == View::voxels || view == View::voxelSlice; }
-// Of two methods' visibility; where only one is run they show that one's.
+// Views of the difference of two methods' visibility; without a second method they show the first one's visibility.
 constexpr bool isDifference(View view) { return view == View::difference || view == View::signedDifference; }
 
-// The first column right of a divider, of a picture so many pixels wide.
+// The first column right of the divider in an image of `width` px; `split` is the divider's fraction of the width.
 uint32_t dividerColumn(float split, uint32_t width);
 
 struct Sun {
-    glm::vec3 direction{0.35f, -1.0f, 0.25f};  // the way light travels, world; any length
-    glm::vec3 radiance{6.0f, 5.6f, 4.9f};      // linear, times pi over the horizon
-    glm::vec3 sky{0.9f, 1.05f, 1.25f};         // ambient radiance from above
-    glm::vec3 ground{0.45f, 0.40f, 0.34f};     // and from below
+    glm::vec3 direction{0.35f, -1.0f, 0.25f};  // direction of the light, world; any length
+    glm::vec3 radiance{6.0f, 5.6f, 4.9f};      // linear; pi times the radiance that a white diffuse surface facing the sun reflects
+    glm::vec3 sky{0.9f, 1.05f, 1.25f};         // ambient radiance from above, linear
+    glm::vec3 ground{0.45f, 0.40f, 0.34f};     // ambient radiance from below, linear
 };
 
-// Which layer of cells View::voxelSlice shows.
+// The layer of cells that View::voxelSlice shows.
 struct VoxelSlice {
-    int axis = 1;             // that it stands across: x, y, z
-    std::optional<float> at;  // metres along it; none: where the camera is
+    int axis = 1;             // normal of the layer: 0 x, 1 y, 2 z
+    std::optional<float> at;  // metres along the axis; empty: at the camera
 };
 
-// How depth layers are drawn, for methods that read them. `best`: thickness alone is peeled, one geometry pass; two surfaces by the ladder or
-// by three peels, whichever this device was quicker with in its first frames of them (peels where its fragment shaders may not write). The
-// pictures are the same to the bit. On lavapipe, 640x360: one peel 42 ms against 77 in the atrium, 49 against
-// 100 in Sponza; three 130 against 77, 150 against 100.
+// How depth layers are drawn (layers.h). `best`: for thickness alone, one peel; for two layers, three peels or the ladder, whichever was
+// faster in the first frames on this device (peels if fragment shaders cannot write). For two layers the images are the same to the bit.
+// On lavapipe at 640x360, atrium / Sponza: one peel 42 / 49 ms, three peels 130 / 150 ms, ladder 77 / 100 ms.
 enum class LayerForm : uint8_t { best, peeling, ladder };
 
 struct FrameOptions {
@@ -59,42 +58,42 @@ struct FrameOptions {
     float guard = 0.1f;               // fraction of each side, 0 to 0.5
     scene::Camera camera;
     float time = 0.0f;                // seconds, of the world's animations
-    const ao::Values* method = nullptr;  // names the method; never null
+    const ao::Values* method = nullptr;  // method and parameters; never null
     ao::Falloff falloff;
-    // A second setting B beside `method`, A, on the same frame with the same falloff, histories of its own: A is shown left of the
-    // divider, B right of it. "A." and "B." then stand before the names of their passes. Null: none, and nothing is spent on it.
+    // Optional method B to compare with `method`, A: same frame and falloff, its own history. A is shown left of the divider, B right of
+    // it; the names of their passes get the prefixes "A." and "B.".
     const ao::Values* compare = nullptr;
-    float split = 0.5f;               // where the divider stands, fraction of the width
-    float differenceRange = 0.25f;    // difference of visibility at which the difference views end
+    float split = 0.5f;               // position of the divider, fraction of the width
+    float differenceRange = 0.25f;    // difference of visibility at which the difference views saturate
     View view = View::final;
     std::string passView;             // for View::pass
-    uint32_t sampleStep = 0;          // > 0: Outputs::samples of every so many pixels
+    uint32_t sampleStep = 0;          // px between samples of Outputs::samples; 0: none
     LayerForm layerForm = LayerForm::best;
     Voxelization voxels;              // for methods that need a volume
     VoxelSlice slice;
     Sun sun;
     float exposure = 1.0f;
-    bool cut = false;                 // first frame after a jump: histories and motion are void
-    bool skipMasked = false;          // leave alpha-masked primitives out (stored references do)
-    bool cull = true;                 // leave out what lies outside the frustum, guard band included
-    uint32_t shadowSize = 2048;       // texels a side
-    float shadowReach = 40.0f;        // metres around the camera that get shadows, in worlds larger than that
+    bool cut = false;                 // camera cut: history is discarded, motion is 0
+    bool skipMasked = false;          // do not draw alpha-masked primitives (as in stored references)
+    bool cull = true;                 // frustum culling, guard band included
+    uint32_t shadowSize = 2048;       // texels per side
+    float shadowReach = 40.0f;        // metres around the camera that have shadows, in larger worlds
 };
 
 struct Outputs {
-    graph::ImageId color;       // what `view` asks for, R8G8B8A8_UNORM holding sRGB-encoded values, visible size
-    graph::ImageId visibility;  // R16F, visible size, of the method, or of both as the divider shows them
-    graph::ImageId sides[2];    // likewise, of A and of B alone (none where nothing is compared)
-    // Of every sampleStep-th visible pixel, (i + 1/2) sampleStep from the corner: halves of A's and B's visibility, linear depth as
-    // float bits, packed normal, halves of motion in px of the whole. R32G32B32A32_UINT, size / sampleStep. None unless asked for.
+    graph::ImageId color;       // the image of `view`: R8G8B8A8_UNORM, sRGB-encoded where it is a colour, visible size
+    graph::ImageId visibility;  // R16F, visible size: of the method, or of A and B on their sides of the divider
+    graph::ImageId sides[2];    // R16F, visible size: of A and of B alone; the latter only with `compare`
+    // Data of every sampleStep-th visible pixel, at (i + 1/2) sampleStep px: half floats of A's and B's visibility, linear depth as float
+    // bits, packed normal, half floats of motion in px. R32G32B32A32_UINT, size / sampleStep. Only with `sampleStep`.
     graph::ImageId samples;
     // Guard band included:
     graph::ImageId depth;           // D32, reversed infinite device depth
-    graph::ImageId linearDepth;     // R32F, -z in metres, ao's sky value where nothing is
+    graph::ImageId linearDepth;     // R32F, -z in metres; sky: ao's sky value
     graph::ImageId normals;         // R32UI, packNormal(): geometric, eye space
     graph::ImageId motion;          // RG16F, px to last frame's position
-    graph::BufferId voxels;         // bits of the volume, as shared/volume.h has them; none where the method needs none
-    ao::LayerSources layers;        // R16F and RG32F, see obscura/ao.h; none unless the method reads them
+    graph::BufferId voxels;         // bits of the volume, shared/volume.h; only if the method reads it
+    ao::LayerInputs layers;        // R16F and RG32F, see obscura/ao.h; none unless the method reads them
 };
 
 struct SceneFacts {
@@ -104,19 +103,19 @@ struct SceneFacts {
 
 class Renderer {
 public:
-    // Null, with a log line, when something required cannot be made.
+    // Null, with a log line, if a Vulkan object cannot be created.
     static std::unique_ptr<Renderer> create(gpu::Device& device, const gpu::ShaderLibrary& shaders);
     ~Renderer();
 
-    // Uploads the models of a world that are not on the GPU yet and drops those no longer used. add() does so as well;
-    // call it first where a hitch would show. A model that cannot be uploaded is logged and left out of the picture.
+    // Uploads the world's models that are not on the GPU and frees unused ones. add() does this too; call load() ahead to avoid a slow
+    // frame. A model that cannot be uploaded is logged and not drawn.
     gpu::Status load(const scene::World& world);
 
-    // Adds the frame's passes. Remembers poses and camera for the next frame's motion vectors.
+    // Adds the frame's passes. Stores poses and camera for the next frame's motion vectors.
     Outputs add(graph::Graph& graph, const scene::World& world, const FrameOptions& options);
 
     ao::Library& library();
-    ao::Library& otherLibrary();  // of B; made when first asked for
+    ao::Library& otherLibrary();  // of B; created at first use
     SceneFacts facts() const;  // of the last add()
     const voxel::Voxels* voxels() const;  // null until a method has needed a volume
 

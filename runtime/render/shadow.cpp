@@ -9,7 +9,7 @@ namespace {
 
 using gpu::Status;
 
-// Reversed depth: farther is smaller. The slope covers what a texel spans; the rest is done where the map is read.
+// Negative, since depth is reversed. Covers the depth range of a texel; scene/shade.glsl adds an offset along the normal.
 constexpr float kDepthBiasSlope = -1.5f;
 
 glm::mat4 lightAxes(const glm::vec3& toSun) {
@@ -18,7 +18,7 @@ glm::mat4 lightAxes(const glm::vec3& toSun) {
     return glm::transpose(glm::mat4(glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(toSun, 0), glm::vec4(0, 0, 0, 1)));
 }
 
-scene::Bounds seenAlong(const glm::mat4& axes, const scene::Bounds& box) {
+scene::Bounds boundsAlong(const glm::mat4& axes, const scene::Bounds& box) {
     scene::Bounds out;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
@@ -27,8 +27,8 @@ scene::Bounds seenAlong(const glm::mat4& axes, const scene::Bounds& box) {
     return out;
 }
 
-// The square and depth range of the map in light space. Both move and grow by steps - of whole texels, so that shadows of
-// things at rest do not crawl, and of many, so that what moves rarely makes the rest be drawn again.
+// The map's square and depth range in light space. Both change in steps: of whole texels, so that shadows of static objects do not crawl,
+// and of many texels, so that moving objects rarely change the map of settled ones.
 struct Fit { glm::vec2 centre; float side, low, high; };
 Fit fit(const scene::Bounds& world, const glm::vec3& around, float reach, uint32_t size) {
     const glm::vec3 extent = world.max - world.min;
@@ -70,7 +70,7 @@ Status Shadow::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Sh
     return gpu::Program::graphics(device, shaders, "scene/shadow_masked.vert", "scene/shadow_masked.frag", state, {}, out.m_masked);
 }
 
-// Draws in an order that lets instances merge; their items go to m_items.
+// Sorts draws so that instances merge; appends their items to m_items.
 void Shadow::collect(Layer& layer, std::vector<const Drawable*> casters, const glm::mat4& clip) {
     layer.solid.clear();
     layer.masked.clear();
@@ -133,7 +133,7 @@ Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const
     const glm::mat4 axes = lightAxes(request.toSun);
     for (const Drawable& caster : request.casters) {
         if (caster.bounds.empty) continue;
-        const scene::Bounds box = seenAlong(axes, caster.bounds);
+        const scene::Bounds box = boundsAlong(axes, caster.bounds);
         world.add(box.min);
         world.add(box.max);
     }
@@ -152,7 +152,8 @@ Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const
     std::vector<const Drawable*> casters[2];
     for (const Drawable& caster : request.casters) {
         const scene::AlphaMode mode = caster.primitive->material->alphaMode;
-        if (mode == scene::AlphaMode::blend || (request.skipMasked && mode == scene::AlphaMode::mask) || !frustum.meets(caster.bounds)) continue;
+        if (mode == scene::AlphaMode::blend || (request.skipMasked && mode == scene::AlphaMode::mask)) continue;
+        if (!frustum.intersects(caster.bounds)) continue;
         Fingerprint& print = caster.settled ? resting : moving;
         const uint32_t serials[] = {caster.model->serial, caster.primitive->serial};
         print.add(serials, sizeof(serials));

@@ -1,5 +1,4 @@
-// The sun's shadow map: one square of reversed depth. What has been at rest for a while is drawn once and kept; what moves
-// is drawn over a copy of that.
+// The sun's shadow map: one square of reversed depth. Settled objects are drawn into a map that is kept, the others over its copy.
 #pragma once
 
 #include "graph/graph.h"
@@ -12,8 +11,8 @@ struct ShadowRequest {
     std::span<const Drawable> casters;
     glm::vec3 toSun{0.0f, 1.0f, 0.0f};   // unit, world
     glm::vec3 eye{0.0f}, forward{0.0f, 0.0f, -1.0f};
-    uint32_t size = 2048;                // texels a side
-    float reach = 40.0f;                 // metres around the camera that get shadows, in worlds larger than that
+    uint32_t size = 2048;                // texels per side
+    float reach = 40.0f;                 // metres around the camera that have shadows, in larger worlds
     bool skipMasked = false;
 };
 
@@ -24,16 +23,16 @@ public:
     struct Map {
         graph::ImageId image;
         glm::mat4 fromWorld{1.0f};  // xy in [0,1], z reversed depth
-        float texel = 0.0f;         // metres
+        float texel = 0.0f;         // side of a texel, metres
     };
-    // `casters` must stay until the graph has run.
+    // `casters` must stay valid until the graph has been executed.
     Map add(graph::Graph& graph, const ShadowRequest& request, const Deform::Posed& posed, Materials& materials);
 
 private:
-    // One of the two maps: things at rest, and those with the moving ones on top.
+    // One of the two maps: of settled objects, and of all objects.
     struct Layer {
         gpu::Image image;
-        uint64_t drawn = 0;  // fingerprint of what it shows; 0: nothing yet
+        uint64_t drawn = 0;  // fingerprint of its contents; 0: none
         std::vector<Draw> solid, masked;
     };
     void collect(Layer& layer, std::vector<const Drawable*> casters, const glm::mat4& clip);

@@ -12,7 +12,7 @@ constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-norm
                                   "base-color", "roughness", "metalness", "emission", "thickness", "second", "second-thickness",
                                   "voxels", "voxel-slice", "difference", "signed-difference", "history", "rejected", "pass"};
 
-// How to show an image of which only the format is known.
+// The display mode of a pass's image, from its format and name.
 uint32_t modeOf(VkFormat format, const std::string& name) {
     switch (format) {
         case VK_FORMAT_D32_SFLOAT: return name.find("shadow") != std::string::npos ? shared::kViewGrey : shared::kViewDeviceDepth;
@@ -69,7 +69,7 @@ graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t 
     block.visible = frame.visible;
     block.mode = mode;
     block.linearize = frame.linearize;
-    // Images of the whole picture's shape lose their guard band, others are stretched.
+    // Images with the aspect ratio of the whole image include the guard band, which is cut off. Other images are stretched.
     const float wholeX = float(desc.width) / float(frame.size.x), wholeY = float(desc.height) / float(frame.size.y);
     const bool whole = (desc.width != frame.visible.x || desc.height != frame.visible.y) && std::abs(wholeX / wholeY - 1.0f) < 0.02f;
     if (whole) {
@@ -84,7 +84,7 @@ graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t 
     return picture;
 }
 
-graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, const ao::LayerSources& layers, graph::ImageId visibility, const shared::View& frame) {
+graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, const ao::LayerInputs& layers, graph::ImageId visibility, const shared::View& frame) {
     switch (view) {
         case View::normals: return show(graph, g.geometric, shared::kViewNormal, frame);
         case View::shadedNormals: return show(graph, g.shaded, shared::kViewNormal, frame);
@@ -142,7 +142,7 @@ graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao
         const int axis = constants.axis;
         constants.layer = volume.cellFromEye[12 + axis] + (slice->at ? (*slice->at - eye[axis]) / block.anchor.w : 0.0f);
     }
-    // Not at the start: a driver takes longer for a tree's shader than for all others, and few look at it.
+    // Created at first use: drivers compile the NanoVDB shader longer than all others together.
     const bool tree = volume.structure != ao::VolumeStructure::dense;
     gpu::Program& program = m_voxels[tree];
     const char* shader = tree ? "voxel/view_nanovdb.comp" : "voxel/view.comp";

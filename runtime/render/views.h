@@ -1,4 +1,4 @@
-// Pictures of images that are no pictures: G-buffer channels, visibility, whatever a pass wrote.
+// Debug views: converts G-buffer channels, visibility, or the output of any pass to displayable images.
 #pragma once
 
 #include "graph/graph.h"
@@ -11,28 +11,27 @@ namespace obscura::render {
 class Views {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Views& out);
-    // Any of kViews but final. Values mean: normals n/2 + 1/2; depth near bright, logarithmic; motion grey at rest;
-    // visibility, roughness and metalness as they are (byte = 255 * value); colours sRGB-encoded; thickness logarithmic, 1 mm black,
-    // 10 m white, open sheets blue, endless and nothing red.
-    graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, const ao::LayerSources& layers, graph::ImageId visibility, const shared::View& frame);
-    // What the pass of that name wrote first; none when no such pass has been added or its image cannot be shown.
+    // Any of kViews but final. Normals: n/2 + 1/2. Depth: logarithmic, near is bright. Motion: grey at 0. Visibility, roughness, metalness:
+    // byte = 255 * value. Colours: sRGB-encoded. Thickness: logarithmic, 1 mm black, 10 m white, open sheets blue, endless and sky red.
+    graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, const ao::LayerInputs& layers, graph::ImageId visibility, const shared::View& frame);
+    // The first image that the pass of that name writes; none if there is no such pass or the image cannot be shown.
     graph::ImageId addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame);
-    // What the temporal pass made of the past: frames that a pixel's history holds, logarithmic, white 63 of them; or, white, where the past was
-    // refused or drawn in so far that it begins anew. None where no history is kept.
+    // History of the temporal pass. View::history: accumulated frames per pixel, logarithmic, white at 63. View::rejected: white where
+    // history was rejected, or clamped so far that accumulation starts again. None without a history.
     graph::ImageId addHistory(graph::Graph& graph, View view, const shared::View& frame);
-    // Of two sides' visibility, visible size: A left of the divider and B right of it, R16F; or their difference as a picture,
-    // |A - B| / range as grey or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is darker).
+    // Of A's and B's visibility, visible size. split(): A left of the divider, B right of it, R16F. difference(): |A - B| / range as grey,
+    // or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is darker).
     graph::ImageId split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider);
     graph::ImageId difference(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float range, bool withSign);
-    // Outputs::samples of what the rest of `outputs` holds.
+    // Outputs::samples, from the other images of `outputs`.
     graph::ImageId samples(graph::Graph& graph, const Outputs& outputs, uint32_t step, const shared::View& frame);
-    // The volume as the camera sees its cells, or one layer of them as a map. Sizes as `frame` has them; `eye` in the world.
+    // The volume's cells seen from the camera, or, with `slice`, a map of one layer of cells. `eye`: camera position, world space.
     graph::ImageId voxels(graph::Graph& graph, graph::BufferId bits, const ao::Volume& volume, const VoxelSlice* slice, const glm::vec3& eye, const shared::View& frame);
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
     gpu::Program m_float, m_uint, m_split, m_difference, m_samples;
-    gpu::Program m_voxels[2];  // by the volume's structure; each made when it is first shown
+    gpu::Program m_voxels[2];  // by the volume's structure; created at first use
     const gpu::ShaderLibrary* m_shaders = nullptr;
 };
 

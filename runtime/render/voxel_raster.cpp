@@ -5,7 +5,7 @@
 namespace obscura::render {
 namespace {
 
-// Object -> cells from the window's lowest corner, rows; in double precision where the numbers are still large.
+// Rows of the matrix from object space to cells from the window's lowest corner. Double precision until the origin is subtracted.
 void rowsOf(const glm::mat4& world, const voxel::Change& where, shared::vec4 rows[3]) {
     for (int r = 0; r < 3; ++r) {
         const auto cells = [&](int column) { return double(world[column][r]) / where.cellSize; };
@@ -13,12 +13,12 @@ void rowsOf(const glm::mat4& world, const voxel::Change& where, shared::vec4 row
     }
 }
 
-bool meets(const scene::Bounds& box, const voxel::Change& where) {
+bool intersects(const scene::Bounds& box, const voxel::Change& where) {
     for (int k = 0; k < 3; ++k) {
         const double low = (double(where.origin[k]) - 1.0) * where.cellSize, high = low + (double(where.cells) + 1.0) * where.cellSize;
         if (double(box.max[k]) < low || double(box.min[k]) > high) return false;
     }
-    return true;  // so do boxes with a NaN, whose triangles may be sound
+    return true;  // also for a box with NaN: some of its triangles can be finite
 }
 
 }  // namespace
@@ -31,9 +31,10 @@ gpu::Status VoxelRaster::create(gpu::Device& device, const gpu::ShaderLibrary& s
 bool VoxelRaster::bindable(const ModelGpu& model) {
     const uint64_t most = m_device->caps().maxStorageRange;
     if (model.vertices.bytes() <= most && model.indices.bytes() <= most) return true;
-    if (m_complained != &model)
-        m_device->log(gpu::Severity::warning, "voxels: " + model.model->name + " is too large for this device's storage buffers and is left out; OpenVDB takes it");
-    m_complained = &model;
+    if (m_logged != &model)
+        m_device->log(gpu::Severity::warning, "voxels: " + model.model->name +
+                                                  " exceeds this device's maxStorageBufferRange and is skipped; use the voxelizer openvdb");
+    m_logged = &model;
     return false;
 }
 
@@ -45,7 +46,7 @@ graph::BufferId VoxelRaster::add(graph::Graph& graph, std::span<const Drawable> 
     for (const Drawable& drawable : drawables) {
         const scene::AlphaMode mode = drawable.primitive->material->alphaMode;
         if (mode == scene::AlphaMode::blend || (mode == scene::AlphaMode::mask && !masked)) continue;
-        if (!meets(drawable.bounds, where) || !bindable(*drawable.model)) continue;
+        if (!intersects(drawable.bounds, where) || !bindable(*drawable.model)) continue;
         const bool isPosed = drawable.posed != kNotPosed;
         shared::VoxelJob job{};
         rowsOf(drawable.world, where, job.rows);

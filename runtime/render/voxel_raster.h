@@ -1,5 +1,5 @@
-// The volume's bits made on the GPU, all of them every frame, from the vertices that are drawn [Reinbothe 2009, 3.1, without its
-// random cameras: each triangle is walked along its own dominant axis].
+// Voxelization on the GPU: all of the volume's bits, every frame, from the vertices that are drawn. As [Reinbothe 2009, 3.1], but each
+// triangle is rasterised along its own dominant axis instead of from random cameras.
 #pragma once
 
 #include "graph/graph.h"
@@ -13,8 +13,8 @@ namespace obscura::render {
 class VoxelRaster {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelRaster& out);
-    // Every drawable that reaches into the window and is no blended one. `where` says which window; the drawables and `posed` are
-    // of this frame and must stay until the graph has run.
+    // Rasterises all drawables in the window except blended ones. `where`: the window. `drawables` and `posed` must stay valid until the
+    // graph has been executed.
     graph::BufferId add(graph::Graph& graph, std::span<const Drawable> drawables, const Deform::Posed& posed, const voxel::Change& where, bool masked, voxel::Shell shell);
     void forget(const ModelGpu& model) { m_sets.forget(model); }
 
@@ -23,7 +23,7 @@ private:
     gpu::Device* m_device = nullptr;
     gpu::Program m_program;
     ModelSets m_sets;
-    const ModelGpu* m_complained = nullptr; // of one that is too large
+    const ModelGpu* m_logged = nullptr;  // the last model that was logged as too large
 };
 
 }  // namespace obscura::render

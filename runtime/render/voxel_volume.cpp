@@ -8,7 +8,7 @@ namespace {
 
 using voxel::Brick;
 
-// Bricks that follow each other in the buffer as they do in the list are one copy.
+// Merges copies of consecutive bricks.
 std::vector<VkBufferCopy> copies(const std::vector<uint32_t>& addresses, uint64_t source) {
     std::vector<VkBufferCopy> list;
     for (size_t i = 0; i < addresses.size(); ++i) {
@@ -23,7 +23,7 @@ std::vector<VkBufferCopy> copies(const std::vector<uint32_t>& addresses, uint64_
 graph::BufferId VoxelVolume::upload(graph::Graph& graph, const voxel::Change& change) {
     const uint64_t bytes = uint64_t(change.cells) * change.cells * change.cells / 8;
     std::vector<Brick> first;
-    if (!m_bits) {  // a new buffer is filled whole, zeros and all
+    if (!m_bits) {  // a new buffer is written completely, empty bricks included
         if (gpu::Buffer::create(graph.device(), bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "voxels", m_bits) != gpu::Status::ok)
             return {};
         first.resize(bytes / sizeof(Brick));
@@ -43,17 +43,19 @@ graph::BufferId VoxelVolume::upload(graph::Graph& graph, const voxel::Change& ch
     return bits;
 }
 
-// A grid is sent whole: where its nodes lie shifts with every leaf that comes or goes.
+// Uploads the whole grid: adding or removing a leaf moves other nodes.
 graph::BufferId VoxelVolume::uploadGrid(graph::Graph& graph, const voxel::Change& change) {
     const uint64_t bytes = change.grid.size() * sizeof(uint32_t);
     if (bytes > m_bits.bytes()) {
-        const uint64_t most = graph.device().caps().maxStorageRange, roomy = std::min(most, bytes + bytes / 4);
+        const uint64_t most = graph.device().caps().maxStorageRange, withSpare = std::min(most, bytes + bytes / 4);
         m_bits = {};
         if (bytes > most) {
-            graph.device().log(gpu::Severity::warning, "voxels: the NanoVDB grid is larger than this device's storage buffers; use larger cells");
+            graph.device().log(gpu::Severity::warning,
+                               "voxels: the NanoVDB grid exceeds this device's maxStorageBufferRange; use larger cells");
             return {};
         }
-        if (gpu::Buffer::create(graph.device(), roomy, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "voxel grid", m_bits) != gpu::Status::ok)
+        if (gpu::Buffer::create(graph.device(), withSpare, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                gpu::Memory::device, "voxel grid", m_bits) != gpu::Status::ok)
             return {};
     }
     if (!m_bits) return {};
@@ -71,9 +73,9 @@ graph::BufferId VoxelVolume::uploadGrid(graph::Graph& graph, const voxel::Change
 graph::BufferId VoxelVolume::add(graph::Graph& graph, const Scene& scene, const Voxelization& how, ao::Volume& volume) {
     gpu::Device& device = graph.device();
     const bool grid = how.structure == ao::VolumeStructure::nanovdb, onGpu = how.voxelizer == Voxelizer::gpu && !grid;
-    const auto unlike = [&](auto Voxelization::* field) { return how.*field != m_how.*field; };
-    if (!m_voxels || unlike(&Voxelization::voxelizer) || unlike(&Voxelization::structure) || unlike(&Voxelization::shell) || unlike(&Voxelization::cells) || unlike(&Voxelization::cellSize) ||
-        unlike(&Voxelization::cache) || scene.masked != m_masked) {
+    const auto differs = [&](auto Voxelization::* field) { return how.*field != m_how.*field; };
+    if (!m_voxels || differs(&Voxelization::voxelizer) || differs(&Voxelization::structure) || differs(&Voxelization::shell) ||
+        differs(&Voxelization::cells) || differs(&Voxelization::cellSize) || differs(&Voxelization::cache) || scene.masked != m_masked) {
         m_voxels = std::make_unique<voxel::Voxels>(voxel::Options{
             .cells = how.cells, .cellSize = double(how.cellSize), .masked = scene.masked, .shell = how.shell, .nano = grid, .bits = !onGpu,
             .cache = how.cache, .progress = how.building, .say = [&device](const std::string& line) { device.log(gpu::Severity::warning, line); }});

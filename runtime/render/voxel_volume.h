@@ -1,5 +1,5 @@
-// The volume that methods trace, as the GPU has it: the window of runtime/voxel, uploaded brick by brick as it changes, or
-// rasterised on the GPU where the window stands; or all of the world as a NanoVDB grid.
+// The volume that methods trace, on the GPU. One of: the window of runtime/voxel, uploaded brick by brick as it changes; the same window
+// rasterised on the GPU; a NanoVDB grid of the whole world.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@ enum class Voxelizer : uint8_t { openvdb, gpu };
 
 // How the world is voxelized for methods that need a volume.
 struct Voxelization {
-    Voxelizer voxelizer = Voxelizer::openvdb;  // gpu: all of it, every frame
-    ao::VolumeStructure structure = ao::VolumeStructure::dense;  // nanovdb: all of the world; the GPU makes none of these
+    Voxelizer voxelizer = Voxelizer::openvdb;  // gpu: everything, every frame
+    ao::VolumeStructure structure = ao::VolumeStructure::dense;  // nanovdb: the whole world, always by the CPU
     voxel::Shell shell = voxel::Shell::conservative;
-    uint32_t cells = 256;         // a side of the window on the GPU: 64, 128, 256 or 512
+    uint32_t cells = 256;         // per side of the window: 64, 128, 256 or 512
     float cellSize = 0.0f;        // metres; 0: the world's longest side fills the window, at most 0.14 m
-    bool exact = true;            // every frame waits for its own voxels; else they may be a frame behind and nobody waits
-    std::filesystem::path cache;  // folder where what rests is kept; empty: nowhere
-    std::function<void(float)> building;  // 0 to 1 while the world is made and 1 at its end, from the thread that adds frames
+    bool exact = true;            // each frame waits for its voxels; false: waits at most 1 ms, voxels lag by a frame or more
+    std::filesystem::path cache;  // folder of cached static geometry; empty: no cache
+    std::function<void(float)> building;  // 0 to 1 while static geometry is built, 1 at its end; from the thread that adds frames
 };
 
 class VoxelVolume {
@@ -38,8 +38,8 @@ public:
         const Deform::Posed& posed;
         bool masked;                          // alpha-masked surfaces are occluders
     };
-    // Follows the world; adds the upload or the rasterisation. Returns the bits and fills `volume`, its buffer aside; none where there
-    // is no volume (yet).
+    // Voxelizes the world and adds the upload or the rasterisation. Returns the bits and fills `volume` except its buffer; none while there
+    // is no volume.
     graph::BufferId add(graph::Graph& graph, const Scene& scene, const Voxelization& how, ao::Volume& volume);
     void forget(const ModelGpu& model) { m_raster.forget(model); }
     const voxel::Voxels* voxels() const { return m_voxels.get(); }  // null before the first add()
@@ -50,7 +50,7 @@ private:
     std::unique_ptr<voxel::Voxels> m_voxels;
     Voxelization m_how;
     bool m_masked = true;
-    gpu::Buffer m_bits;                // or the grid
+    gpu::Buffer m_bits;                // or the NanoVDB grid
     VoxelRaster m_raster;
 };
 

@@ -14,7 +14,7 @@ namespace obscura::scene {
 glm::mat4 Camera::view() const {
     glm::vec3 forward = target - eye;
     forward = glm::length(forward) > 1e-12f ? glm::normalize(forward) : glm::vec3(0.0f, 0.0f, -1.0f);
-    // Looking along `up` leaves no horizon; any other axis gives one.
+    // A view direction parallel to `up` needs another up vector.
     glm::vec3 above = up;
     if (!(glm::length(glm::cross(forward, above)) > 1e-6f * glm::length(above)))
         above = std::abs(forward.z) < 0.9f ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
@@ -26,7 +26,7 @@ glm::mat4 Camera::projection(glm::vec2 size, glm::vec2 visible) const {
     if (orthoHalfHeight > 0.0f) {
         // Pixels are square and the guard band lies around the visible part, so one number scales both axes.
         const float pixelsPerMetre = visible.y / (2.0f * orthoHalfHeight);
-        // 24 bits of depth resolve a far plane this many near distances away to a few centimetres at the usual 0.05 m.
+        // 500 m at the default near distance of 0.05 m: 24 bits of linear depth resolve 0.03 mm.
         const float far = 1e4f * std::max(nearPlane, 1e-4f);
         m[0][0] = 2.0f * pixelsPerMetre / size.x;
         m[1][1] = -2.0f * pixelsPerMetre / size.y;
@@ -66,7 +66,7 @@ Camera lensCamera(const Instance& instance, const Pose& pose, int index) {
         const Lens& lens = model.lenses[size_t(model.nodes[size_t(node)].camera)];
         const glm::mat4 matrix = instance.placement * pose.world[size_t(node)];
         camera.eye = glm::vec3(matrix[3]);
-        // A camera's scale does not zoom [glTF 2.0, 3.10].
+        // The node's scale does not affect the view [glTF 2.0, 3.10].
         const glm::vec3 forward = -glm::vec3(matrix[2]), up = glm::vec3(matrix[1]);
         camera.target = camera.eye + (glm::length(forward) > 0.0f ? glm::normalize(forward) : glm::vec3(0.0f, 0.0f, -1.0f));
         camera.up = glm::length(up) > 0.0f ? glm::normalize(up) : glm::vec3(0.0f, 1.0f, 0.0f);
@@ -89,7 +89,7 @@ Camera loadCamera(const std::filesystem::path& file) {
     if (const auto fov = root.find("verticalFovDegrees")) camera.fovY = float(glm::radians(fov->number(1.0, 170.0)));
     if (const auto near = root.find("near")) camera.nearPlane = float(near->number(1e-5, 1e3));
     if (camera.eye == camera.target) root.at("target").fail("must differ from eye");
-    if (camera.up == glm::vec3(0.0f)) root.at("up").fail("must not be zero");
+    if (camera.up == glm::vec3(0.0f)) root.at("up").fail("must not be the zero vector");
     return camera;
 }
 

@@ -19,19 +19,18 @@ struct Camera {
     float orthoHalfHeight = 0.0f;         // > 0: orthographic, half the visible height in metres
 
     glm::mat4 view() const;  // world -> eye
-    // Eye -> clip, Vulkan: y down, depth reversed (1 near, 0 at infinity). `size` is the whole image in pixels, guard
-    // band included, `visible` the part that fovY spans. Orthographic cameras end at 1e4 times the near distance, where
-    // their depth, linear there, reaches 0.
+    // Eye -> clip, Vulkan: y down, depth reversed (1 at the near plane, 0 at infinity). `size`: px of the whole image, guard band included;
+    // `visible`: px of the part that fovY spans. Orthographic cameras have linear depth, with the far plane at 1e4 times the near distance.
     glm::mat4 projection(glm::vec2 size, glm::vec2 visible) const;
 };
 
-// A camera that sees the bounds from a three-quarter view.
+// A camera that shows the bounds in a three-quarter view.
 Camera frame(const Bounds& bounds);
-// Camera of a glTF node (index among the nodes that carry one, in `order`), posed.
+// The camera of a posed glTF node; `index` counts the nodes with a camera in Model::order.
 Camera lensCamera(const Instance& instance, const Pose& pose, int index);
 int lensCount(const Model& model);
 
-// {"eye":[..],"target":[..],"up":[..],"verticalFovDegrees":60,"near":0.05}; fields but eye and target optional.
+// {"eye":[..],"target":[..],"up":[..],"verticalFovDegrees":60,"near":0.05}; eye and target are required.
 Camera loadCamera(const std::filesystem::path& file);
 
 // A flythrough: keys of {time, eye, target, fov}, Catmull-Rom (centripetal) in between, JSON in content/.
@@ -49,7 +48,7 @@ public:
     float duration = 0.0f;
     bool loop = true;
     std::vector<Key> keys;  // times strictly increasing, at least one; a loop returns to the first at its time + duration
-    std::string events;     // the JSON array as it stood in the file, empty when there was none; kept for `save`
+    std::string events;     // the file's JSON array, kept for save(); empty if it has none
 
     Camera at(float time) const;
     void save(const std::filesystem::path& file) const;  // temporary name, then rename

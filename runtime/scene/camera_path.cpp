@@ -1,8 +1,8 @@
-// Flythroughs: a centripetal Catmull-Rom curve through the keys, run through in time without jumps in velocity.
+// Flythroughs: a centripetal Catmull-Rom curve through the keys, with a continuous velocity.
 //
-// A curve through unevenly spaced points needs knots that follow their distances, or it loops and overshoots
-// [Yuksel et al. 2011]. Keys have times of their own, though, so the curve is walked by a second, monotone function from
-// time to knots [Fritsch and Carlson 1980]. Both are once differentiable, hence so is the path in time.
+// A curve through unevenly spaced points loops and overshoots unless its knots follow the distances of the points [Yuksel et al. 2011].
+// Since keys also have times, a second, monotone function maps time to knots [Fritsch and Carlson 1980]. Both functions are C1, and so is
+// the path in time.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -22,7 +22,7 @@ T hermite(const T& a, const T& ta, const T& b, const T& tb, float t, float step)
     return (2.0f * t3 - 3.0f * t2 + 1.0f) * a + step * (t3 - 2.0f * t2 + t) * ta + (-2.0f * t3 + 3.0f * t2) * b + step * (t3 - t2) * tb;
 }
 
-// Four keys around a segment, i to i+1, with the neighbours' indices and times continued over a loop's seam.
+// The keys i - 1 to i + 2 of the segment from i to i + 1; indices and times continue across the end of a loop.
 struct Around {
     size_t key[4];
     float time[4];
@@ -50,13 +50,13 @@ float monotone(const float (&value)[4], const float (&time)[4], float t) {
 
 // Catmull-Rom through p[1] and p[2] with centripetal knots, at the fraction t of the segment's time.
 glm::vec3 alongCurve(const glm::vec3 (&p)[4], const float (&time)[4], float t) {
-    constexpr float kLeast = 1e-3f;  // a resting camera repeats points; knots must still differ
+    constexpr float kMinStep = 1e-3f;  // knots of equal points (a camera at rest) must differ
     float knot[4] = {0.0f, 0.0f, 0.0f, 0.0f}, step[3];
     for (int i = 0; i < 3; ++i) {
-        step[i] = std::max(std::sqrt(glm::length(p[i + 1] - p[i])), kLeast);
+        step[i] = std::max(std::sqrt(glm::length(p[i + 1] - p[i])), kMinStep);
         knot[i + 1] = knot[i] + step[i];
     }
-    // The ends of an open path have no neighbour to lean on.
+    // At an end of an open path one neighbour is missing: the tangent is the segment's.
     const bool hasFirst = time[0] < time[1], hasLast = time[2] < time[3];
     const glm::vec3 before = (p[1] - p[0]) / step[0], own = (p[2] - p[1]) / step[1], after = (p[3] - p[2]) / step[2];
     const glm::vec3 start = hasFirst ? (before * step[1] + own * step[0]) / (step[0] + step[1]) : own;
@@ -67,7 +67,7 @@ glm::vec3 alongCurve(const glm::vec3 (&p)[4], const float (&time)[4], float t) {
 
 Around around(const CameraPath& path, float time) {
     const size_t count = path.keys.size();
-    // A loop may state its first key again at its end; it is the same key.
+    // A loop may repeat its first key as the last one: both are the same key.
     const size_t own = path.loop && count > 1 && path.keys.back().time >= path.keys.front().time + path.duration ? count - 1 : count;
     const auto timeOf = [&](ptrdiff_t i) {
         const ptrdiff_t n = ptrdiff_t(own);
@@ -135,7 +135,7 @@ CameraPath loadCameraPath(const std::filesystem::path& file) {
     if (const auto scene = root.find("scene")) path.scene = scene->text();
     if (const auto loop = root.find("loop")) path.loop = loop->truth();
     const JsonAt keys = root.at("keys").expectArray();
-    if (keys.size() == 0) keys.fail("must hold at least one key");
+    if (keys.size() == 0) keys.fail("must have at least one key");
     for (size_t i = 0; i < keys.size(); ++i) {
         path.keys.push_back(keyOf(keys.at(i)));
         if (i > 0 && path.keys[i].time <= path.keys[i - 1].time)
@@ -147,11 +147,11 @@ CameraPath loadCameraPath(const std::filesystem::path& file) {
     if (const auto duration = root.find("duration")) {
         path.duration = float(duration->number(0.0, 1e6));
         if (last.time - first.time > path.duration)
-            duration->fail(fmt::format("is {} s, but the keys take {} s", path.duration, last.time - first.time));
+            duration->fail(fmt::format("is {} s, but the keys span {} s", path.duration, last.time - first.time));
     }
     if (path.loop && path.keys.size() > 1 && last.time >= first.time + path.duration &&
         (last.eye != first.eye || last.target != first.target || last.fovY != first.fovY))
-        keys.at(keys.size() - 1).fail("a loop's last key falls on its first; make them equal, or duration longer");
+        keys.at(keys.size() - 1).fail("a loop's last key has the time of its first; make both equal, or raise the duration");
     if (const auto events = root.find("events")) path.events = events->expectArray().json().dump();
     return path;
 }
@@ -164,7 +164,7 @@ void CameraPath::save(const std::filesystem::path& file) const {
     std::string text = fmt::format("{{\n  \"name\": {},\n  \"scene\": {},\n  \"duration\": {},\n  \"loop\": {},\n  \"keys\": [\n",
                                    quoted(name), quoted(scene), duration, loop);
     for (size_t i = 0; i < keys.size(); ++i) {
-        // Enough digits that radians come back as the same float.
+        // Double precision: loading gives the same float in radians.
         text += fmt::format("    {{\"time\": {}, \"eye\": {}, \"target\": {}, \"verticalFovDegrees\": {}}}{}\n", keys[i].time, triple(keys[i].eye),
                             triple(keys[i].target), glm::degrees(double(keys[i].fovY)), i + 1 < keys.size() ? "," : "");
     }
@@ -179,7 +179,7 @@ void CameraPath::save(const std::filesystem::path& file) const {
         out.close();
         if (!out) {
             std::filesystem::remove(temporary, error);
-            throw Error(errorLine(file.string(), "", "cannot be written; is the folder there and writable?"));
+            throw Error(errorLine(file.string(), "", "cannot be written; choose a folder that exists and is writable"));
         }
     }
     std::filesystem::rename(temporary, file, error);

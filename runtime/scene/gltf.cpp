@@ -1,4 +1,4 @@
-// The loader's stages in order; each lives in a gltf_*.cpp of its own.
+// Runs the loader's stages in order; each has its own gltf_*.cpp.
 #include "scene/gltf.h"
 
 #include <new>
@@ -36,8 +36,8 @@ std::shared_ptr<const Model> load(gltf::Context& context, gltf::Bytes bytes, con
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
-        context.fail("", "needs more memory than there is");
-    } catch (const std::exception& error) {  // of the libraries behind the stages
+        context.fail("", "out of memory; split the model or use smaller images");
+    } catch (const std::exception& error) {  // from the libraries used by the stages
         context.fail("", fmt::format("cannot be read: {}", error.what()));
     }
 }

@@ -1,5 +1,5 @@
-// Accessors to flat arrays: every component type, normalized integers, strides, padded matrices, sparse substitution.
-// Ranges were settled by the check; here only values can be wrong.
+// Accessors to flat arrays: every component type, normalized integers, strides, padded matrices, sparse accessors. The check stage has
+// validated ranges; here only values can be wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -26,7 +26,7 @@ std::string_view typeName(int type) {
     }
 }
 
-// How one accessor's elements lie in memory.
+// Memory layout of an accessor's elements.
 struct Layout {
     int components = 1;
     int rows = 1;             // components in a column
@@ -45,7 +45,7 @@ Layout layoutOf(const tinygltf::Accessor& accessor) {
     return layout;
 }
 
-// glTF 2.0, 3.6.2.2: normalized integers, with the lowest signed value clamped.
+// Normalized integers; the lowest signed value is clamped to -1 [glTF 2.0, 3.6.2.2].
 template <class From, class To>
 To convert(From value, bool normalized) {
     if constexpr (std::is_floating_point_v<To> && std::is_integral_v<From> && sizeof(From) < 4) {
@@ -73,13 +73,13 @@ void copyAny(const tinygltf::Accessor& accessor, const Layout& layout, const uin
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return copyElements<uint16_t>(source, stride, layout, accessor.normalized, count, out);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return copyElements<uint32_t>(source, stride, layout, false, count, out);
         default:
-            // Only float arrays are ever read from float accessors; the check saw to it.
+            // The check stage allows float accessors only where floats are read.
             if constexpr (std::is_floating_point_v<To>) copyElements<float>(source, stride, layout, false, count, out);
     }
 }
 
 template <class To>
-void substitute(Context& context, const Asset& asset, int index, const Layout& layout, std::vector<To>& out) {
+void applySparse(Context& context, const Asset& asset, int index, const Layout& layout, std::vector<To>& out) {
     const tinygltf::Accessor& accessor = asset.gltf->accessors[size_t(index)];
     const auto& sparse = accessor.sparse;
     if (!sparse.isSparse) return;
@@ -95,7 +95,9 @@ void substitute(Context& context, const Asset& asset, int index, const Layout& l
     const uint8_t* values = viewOf(context, asset, sparse.values.bufferView).data() + sparse.values.byteOffset;
     for (size_t i = 0; i < count; ++i) {
         if (where[i] >= accessor.count || (i > 0 && where[i] <= where[i - 1]))
-            context.fail(pointer + "/indices", fmt::format("index {} at {} is out of range or out of order", where[i], i));
+            context.fail(pointer + "/indices",
+                         fmt::format("index {} at {} is out of range or not above the one before; indices must increase and be below {}",
+                                     where[i], i, accessor.count));
         copyAny(accessor, layout, values + i * layout.elementBytes, layout.elementBytes, 1, out.data() + size_t(where[i]) * size_t(layout.components));
     }
 }
@@ -107,9 +109,11 @@ std::vector<To> read(Context& context, const Asset& asset, int index) {
     const std::string pointer = fmt::format("/accessors/{}", index);
     const uint64_t total = uint64_t(accessor.count) * uint64_t(layout.components);
     if (accessor.bufferView < 0) {
-        // Zeros cost the file nothing; a few bytes must not ask for gigabytes.
-        constexpr size_t kMostZeros = size_t(1) << 22;
-        if (accessor.count > kMostZeros) context.fail(pointer + "/count", fmt::format("{} elements without a bufferView, at most {} are taken", accessor.count, kMostZeros));
+        // Zeros take no space in the file: a few bytes of JSON must not allocate gigabytes.
+        constexpr size_t kMaxZeros = size_t(1) << 22;
+        if (accessor.count > kMaxZeros)
+            context.fail(pointer + "/count",
+                         fmt::format("{} elements without a bufferView; at most {} are supported", accessor.count, kMaxZeros));
     }
     context.spend(total * sizeof(To), pointer);
     std::vector<To> out(total);
@@ -118,7 +122,7 @@ std::vector<To> read(Context& context, const Asset& asset, int index) {
         const size_t stride = asset.gltf->bufferViews[view].byteStride;
         copyAny(accessor, layout, viewOf(context, asset, accessor.bufferView).data() + accessor.byteOffset, stride != 0 ? stride : layout.elementBytes, accessor.count, out.data());
     }
-    substitute(context, asset, index, layout, out);
+    applySparse(context, asset, index, layout, out);
     return out;
 }
 

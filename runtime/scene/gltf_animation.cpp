@@ -1,4 +1,4 @@
-// Animations: channels with their keys, values as floats.
+// glTF animations to channels of keys, values as floats.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ void addAnimations(Context& context, const Asset& asset, Model& model) {
         for (size_t c = 0; c < from.channels.size(); ++c) {
             const auto& source = from.channels[c];
             if (source.target_path == "pointer" || source.target_node < 0) {
-                context.warn(fmt::format("/animations/{}/channels/{}", a, c), "moves nothing that is known and is ignored");
+                context.warn(fmt::format("/animations/{}/channels/{}", a, c), "has no target node; it is ignored");
                 continue;
             }
             const auto& sampler = from.samplers[size_t(source.sampler)];

@@ -1,5 +1,5 @@
-// The structure of a glTF file, first part: version, extensions, buffers, views, accessors. tinygltf takes wrong types,
-// indices and counts in silence, so all of that is settled on the JSON before it sees the file.
+// Validation of a glTF file's JSON, 1 of 3: version, extensions, buffers, views, accessors. tinygltf does not report wrong types, indices
+// and counts, so they are checked before it parses the file.
 #include <algorithm>
 #include <array>
 
@@ -61,13 +61,13 @@ void checkAsset(const JsonAt& root) {
             return !s.empty() && s.size() < 6 && std::all_of(s.begin(), s.end(), [](char c) { return c >= '0' && c <= '9'; });
         };
         if (dot == text.npos || !digits(std::string_view(text).substr(0, dot)) || !digits(std::string_view(text).substr(dot + 1)))
-            at.fail(fmt::format("\"{}\" is not a version like 2.0", text));
+            at.fail(fmt::format("\"{}\" is not a version; write MAJOR.MINOR, such as 2.0", text));
         return std::pair(std::stoi(text), std::stoi(text.substr(dot + 1)));
     };
     const JsonAt version = asset.at("version");
-    if (number(version).first != 2) version.fail(fmt::format("is glTF {}; only version 2 is supported", version.text()));
+    if (number(version).first != 2) version.fail(fmt::format("is glTF {}; export as glTF 2.0", version.text()));
     if (const auto least = asset.find("minVersion"); least && number(*least) > std::pair(2, 0))
-        least->fail(fmt::format("needs glTF {}; 2.0 is supported", least->text()));
+        least->fail(fmt::format("requires glTF {}; at most 2.0 is supported", least->text()));
     for (const char* name : {"generator", "copyright"})
         if (const auto at = asset.find(name)) at->text();
 }
@@ -99,20 +99,21 @@ void checkMeshopt(const JsonAt& view, size_t bufferCount) {
     const std::string filter = at.has("filter") ? at.at("filter").text() : "NONE";
     const uint64_t stride = at.at("byteStride").whole(1, 256);
     const uint64_t count = at.at("count").whole(1, uint64_t(1) << 31);
-    if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES") at.at("mode").fail(fmt::format("unknown mode \"{}\"", mode));
+    if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES")
+        at.at("mode").fail(fmt::format("unknown mode \"{}\"; use ATTRIBUTES, TRIANGLES or INDICES", mode));
     if (filter != "NONE" && filter != "OCTAHEDRAL" && filter != "QUATERNION" && filter != "EXPONENTIAL")
-        at.at("filter").fail(fmt::format("unknown filter \"{}\"", filter));
+        at.at("filter").fail(fmt::format("unknown filter \"{}\"; use NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL", filter));
     if (mode == "ATTRIBUTES") {
         if (stride % 4 != 0) at.at("byteStride").fail("must be a multiple of four for attributes");
         if (filter == "OCTAHEDRAL" && stride != 4 && stride != 8) at.at("byteStride").fail("must be 4 or 8 for the octahedral filter");
         if (filter == "QUATERNION" && stride != 8) at.at("byteStride").fail("must be 8 for the quaternion filter");
     } else {
-        if (filter != "NONE") at.at("filter").fail("only attributes may be filtered");
+        if (filter != "NONE") at.at("filter").fail("only the mode ATTRIBUTES has filters; use NONE");
         if (stride != 2 && stride != 4) at.at("byteStride").fail("must be 2 or 4 for indices");
         if (mode == "TRIANGLES" && count % 3 != 0) at.at("count").fail("must be a multiple of three for triangles");
     }
     if (view.at("byteLength").whole() != count * stride)
-        view.at("byteLength").fail(fmt::format("must be {} elements of {} bytes, as the compressed view says", count, stride));
+        view.at("byteLength").fail(fmt::format("must be count * byteStride of {}: {} * {} bytes", kMeshopt, count, stride));
     if (offset > JsonAt::kLargest - length) at.fail("byteOffset and byteLength overflow");
 }
 
@@ -142,7 +143,7 @@ void checkBuffers(const JsonAt& root, bool hasChunk) {
         within(at, buffer);
         if (const auto name = at.find("name")) name->text();
         if (const auto target = at.find("target"); target && target->whole() != 34962 && target->whole() != 34963)
-            target->fail("must be 34962 or 34963");
+            target->fail("must be 34962 (vertices) or 34963 (indices)");
         if (const auto stride = at.find("byteStride"); stride && stride->whole(4, 252) % 4 != 0)
             stride->fail("must be a multiple of four");
         if (const auto extensions = at.find("extensions")) extensions->expectObject();
@@ -166,7 +167,7 @@ void checkInView(const JsonAt& root, const JsonAt& at, size_t view, uint64_t off
 void checkSparse(const JsonAt& root, const JsonAt& accessor, size_t viewCount, size_t element, size_t lastElement, size_t alignment) {
     const JsonAt at = accessor.at("sparse").expectObject();
     const uint64_t count = at.at("count").whole(1, accessor.at("count").whole());
-    const auto part = [&](const char* key, size_t bytes, size_t last, size_t align) {
+    const auto check = [&](const char* key, size_t bytes, size_t last, size_t align) {
         const JsonAt from = at.at(key).expectObject();
         const size_t view = from.at("bufferView").index(viewCount, "bufferView");
         const uint64_t offset = from.has("byteOffset") ? from.at("byteOffset").whole() : 0;
@@ -178,8 +179,8 @@ void checkSparse(const JsonAt& root, const JsonAt& accessor, size_t viewCount, s
     const uint64_t component = type.whole();
     if (component != 5121 && component != 5123 && component != 5125) type.fail("must be 5121, 5123 or 5125");
     const size_t size = bytesOf(int(component));
-    part("indices", size, size, size);
-    part("values", element, lastElement, alignment);
+    check("indices", size, size, size);
+    check("values", element, lastElement, alignment);
 }
 
 void checkAccessors(const JsonAt& root) {
@@ -188,14 +189,15 @@ void checkAccessors(const JsonAt& root) {
     const auto list = root.find("accessors");
     for (size_t i = 0; list && i < list->expectArray().size(); ++i) {
         const JsonAt at = list->at(i).expectObject();
-        // Elements are addressed with 32 bits everywhere after this.
+        // Later stages use 32-bit element indices.
         const uint64_t count = at.at("count").whole(1, uint64_t(1) << 31);
         const uint64_t component = at.at("componentType").whole();
         if (component > 65535 || bytesOf(int(component)) == 0)
-            at.at("componentType").fail(fmt::format("{} is no component type; use 5120 to 5123, 5125 or 5126", component));
+            at.at("componentType").fail(fmt::format("{} is not a component type; use 5120 to 5123, 5125 or 5126", component));
         const std::string type = at.at("type").text();
         const int components = componentsOf(type);
-        if (components == 0) at.at("type").fail(fmt::format("\"{}\" is no accessor type", type));
+        if (components == 0)
+            at.at("type").fail(fmt::format("\"{}\" is not an accessor type; use SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4", type));
         if (const auto normalized = at.find("normalized"); normalized && normalized->truth() && component >= 5125)
             normalized->fail("floats and 32-bit integers cannot be normalized");
         for (const char* bound : {"min", "max"})
@@ -208,7 +210,7 @@ void checkAccessors(const JsonAt& root) {
         if (at.has("sparse")) checkSparse(root, at, viewCount, element, last, size);
         const auto view = at.find("bufferView");
         if (!view) {
-            if (at.has("byteOffset")) at.at("byteOffset").fail("means nothing without a bufferView");
+            if (at.has("byteOffset")) at.at("byteOffset").fail("requires a bufferView");
             continue;
         }
         const size_t index = view->index(viewCount, "bufferView");
@@ -216,7 +218,8 @@ void checkAccessors(const JsonAt& root) {
         uint64_t stride = element;
         if (source.has("byteStride")) {
             stride = source.at("byteStride").whole();
-            if (stride < element) view->fail(fmt::format("bufferView {} has a stride of {} bytes, elements have {}", index, stride, element));
+            if (stride < element)
+                view->fail(fmt::format("bufferView {} has a byteStride of {}, but an element has {} bytes", index, stride, element));
         }
         const uint64_t base = source.has("byteOffset") ? source.at("byteOffset").whole() : 0;
         if (offset % size != 0 || (base + offset) % size != 0)
@@ -245,7 +248,7 @@ void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk) 
         }
     checkBuffers(root, hasChunk);
     checkAccessors(root);
-    checkLooks(context, json, hasChunk);
+    checkMaterials(context, json, hasChunk);
     checkMeshes(context, json);
     checkScenes(context, json);
 }

@@ -1,5 +1,5 @@
-// The structure of a glTF file, second part: what is drawn: images, samplers, textures, materials and meshes. Only
-// references, types and counts; values that need the binary data are checked when decoded.
+// Validation of a glTF file's JSON, 2 of 3: images, samplers, textures, materials and meshes. Checks references, types and counts; values
+// in the binary data are checked when they are decoded.
 #include <algorithm>
 #include <cctype>
 
@@ -42,7 +42,7 @@ void checkTextureInfo(const JsonAt& root, const JsonAt& material, const char* ke
     }
 }
 
-// An accessor of one of the component types and the given type, `count` elements (0: any).
+// Checks that `at` refers to an accessor of one of the types and component types, with `count` elements (0: any number).
 size_t checkAccessor(const JsonAt& root, const JsonAt& at, std::initializer_list<const char*> types,
                      std::initializer_list<uint64_t> components, uint64_t count) {
     const size_t index = at.index(countOf(root, "accessors"), "accessor");
@@ -64,14 +64,14 @@ bool endsInNumber(std::string_view name, std::string_view stem) {
 }
 
 void checkAttribute(const JsonAt& root, const JsonAt& at, const std::string& name, uint64_t count) {
-    // Quantization allows every integer type; without it they would only be unusual, so they are read all the same.
+    // KHR_mesh_quantization allows every integer type. They are accepted without the extension too.
     if (name == "POSITION" || name == "NORMAL") checkAccessor(root, at, {"VEC3"}, {5126, 5120, 5121, 5122, 5123}, count);
     else if (name == "TANGENT") checkAccessor(root, at, {"VEC4"}, {5126, 5120, 5122}, count);
     else if (endsInNumber(name, "TEXCOORD_")) checkAccessor(root, at, {"VEC2"}, {5126, 5120, 5121, 5122, 5123}, count);
     else if (endsInNumber(name, "COLOR_")) checkAccessor(root, at, {"VEC3", "VEC4"}, {5126, 5121, 5123}, count);
     else if (endsInNumber(name, "JOINTS_")) checkAccessor(root, at, {"VEC4"}, {5121, 5123}, count);
     else if (endsInNumber(name, "WEIGHTS_")) checkAccessor(root, at, {"VEC4"}, {5126, 5121, 5123}, count);
-    else if (name.empty() || name.front() != '_') at.fail("is no attribute of glTF; own attributes start with an underscore");
+    else if (name.empty() || name.front() != '_') at.fail("is not a glTF attribute; names of custom attributes start with an underscore");
     else at.index(countOf(root, "accessors"), "accessor");
 }
 
@@ -108,7 +108,7 @@ void checkPrimitive(const JsonAt& root, const JsonAt& at) {
     if (const auto draco = extensions->expectObject().find(kDraco)) {
         draco->at("bufferView").index(countOf(root, "bufferViews"), "bufferView");
         const uint64_t mode = at.has("mode") ? at.at("mode").whole() : 4;
-        if (mode != 4 && mode != 5) at.at("mode").fail("Draco compresses triangle lists and strips only");
+        if (mode != 4 && mode != 5) at.at("mode").fail("Draco supports triangle lists (4) and strips (5) only");
         const JsonAt packed = draco->at("attributes").expectObject();
         for (const auto& item : packed.json().items()) {
             packed.at(item.key().c_str()).whole(0, 65535);
@@ -119,19 +119,20 @@ void checkPrimitive(const JsonAt& root, const JsonAt& at) {
 
 }  // namespace
 
-void checkLooks(Context& context, const nlohmann::json& json, bool hasChunk) {
+void checkMaterials(Context& context, const nlohmann::json& json, bool hasChunk) {
     const JsonAt root(context.file, json);
     const size_t views = countOf(root, "bufferViews");
     for (size_t i = 0; i < countOf(root, "images"); ++i) {
         const JsonAt at = root.at("images").at(i);
-        if (at.has("uri") == at.has("bufferView")) at.fail("must have either a uri or a bufferView");
+        if (at.has("uri") == at.has("bufferView")) at.fail("must have a uri or a bufferView, and not both");
         if (const auto uri = at.find("uri")) uri->text();
         if (const auto type = at.find("mimeType")) type->text();
         if (const auto view = at.find("bufferView")) {
             const size_t index = view->index(views, "bufferView");
-            if (!at.has("mimeType")) at.fail("an image in a bufferView needs a mimeType");
+            if (!at.has("mimeType")) at.fail("an image in a bufferView must have a mimeType");
             const JsonAt source = root.at("bufferViews").at(index);
-            if (source.has("extensions") && source.at("extensions").has(kMeshopt)) view->fail("an image cannot lie in a compressed view");
+            if (source.has("extensions") && source.at("extensions").has(kMeshopt))
+                view->fail(fmt::format("an image must not be in a view with {}", kMeshopt));
             const uint64_t buffer = source.at("buffer").whole();
             if (!root.at("buffers").at(size_t(buffer)).has("uri") && !(buffer == 0 && hasChunk))
                 view->fail(fmt::format("buffer {} has neither a uri nor a BIN chunk", buffer));
@@ -184,7 +185,8 @@ void checkMeshes(Context& context, const nlohmann::json& json) {
             checkPrimitive(root, primitive);
             const size_t count = primitive.has("targets") ? primitive.at("targets").size() : 0;
             if (k == 0) targets = count;
-            if (count != targets) primitive.fail(fmt::format("has {} morph targets, its mesh's first primitive {}", count, targets));
+            if (count != targets)
+                primitive.fail(fmt::format("has {} morph targets, but the first primitive of its mesh has {}", count, targets));
         }
         if (const auto weights = at.find("weights")) weights->expectNumbers(targets);
     }

@@ -1,4 +1,4 @@
-// The structure of a glTF file, third part: cameras, nodes, skins, scenes and animations.
+// Validation of a glTF file's JSON, 3 of 3: cameras, nodes, skins, scenes and animations.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -29,13 +29,13 @@ void checkCameras(const JsonAt& root) {
             const JsonAt lens = at.at("perspective").expectObject();
             lens.at("yfov").number(1e-6);
             const double near = lens.at("znear").number(kTiny);
-            if (const auto far = lens.find("zfar"); far && far->number(kTiny) <= near) far->fail("must lie beyond znear");
+            if (const auto far = lens.find("zfar"); far && far->number(kTiny) <= near) far->fail("must be greater than znear");
             if (const auto aspect = lens.find("aspectRatio")) aspect->number(kTiny);
         } else if (type == "orthographic") {
             const JsonAt lens = at.at("orthographic").expectObject();
             for (const char* key : {"xmag", "ymag"})
                 if (lens.at(key).number() == 0) lens.at(key).fail("must not be zero");
-            if (lens.at("zfar").number(kTiny) <= lens.at("znear").number(0)) lens.at("zfar").fail("must lie beyond znear");
+            if (lens.at("zfar").number(kTiny) <= lens.at("znear").number(0)) lens.at("zfar").fail("must be greater than znear");
         } else {
             at.at("type").fail(fmt::format("\"{}\" is unknown; use perspective or orthographic", type));
         }
@@ -51,7 +51,7 @@ void checkNodes(const JsonAt& root) {
         if (const auto mesh = at.find("mesh")) mesh->index(countOf(root, "meshes"), "mesh");
         if (const auto skin = at.find("skin")) {
             skin->index(countOf(root, "skins"), "skin");
-            if (!at.has("mesh")) skin->fail("a node with a skin needs a mesh");
+            if (!at.has("mesh")) skin->fail("a node with a skin must have a mesh");
         }
         if (const auto matrix = at.find("matrix")) {
             matrix->expectNumbers(16);
@@ -67,7 +67,7 @@ void checkNodes(const JsonAt& root) {
             if (!(length > 1e-12)) rotation->fail("is a quaternion of length zero");
         }
         if (const auto weights = at.find("weights")) {
-            if (!at.has("mesh")) weights->fail("a node with morph weights needs a mesh");
+            if (!at.has("mesh")) weights->fail("a node with morph weights must have a mesh");
             weights->expectNumbers(targetsOf(root, at.at("mesh").index(countOf(root, "meshes"), "mesh")));
         }
         for (size_t k = 0; at.has("children") && k < at.at("children").expectArray().size(); ++k) {
@@ -77,15 +77,15 @@ void checkNodes(const JsonAt& root) {
             parent[child] = i;
         }
     }
-    // With one parent each, a node is in a loop exactly when its ancestors never end.
-    std::vector<uint8_t> state(count, 0);  // 1: on the way up, 2: known to end
+    // Every node has at most one parent, so a node is on a cycle exactly if following its parents never reaches a root.
+    std::vector<uint8_t> state(count, 0);  // 1: on the current path, 2: leads to a root
     for (size_t i = 0; i < count; ++i) {
         size_t node = i;
         while (node != count && state[node] == 0) {
             state[node] = 1;
             node = parent[node];
         }
-        if (node != count && state[node] == 1) root.at("nodes").at(node).fail("is its own ancestor; node trees must not loop");
+        if (node != count && state[node] == 1) root.at("nodes").at(node).fail("is its own ancestor; nodes must form trees");
         for (node = i; node != count && state[node] == 1; node = parent[node]) state[node] = 2;
     }
     const auto scenes = root.find("scenes");
@@ -95,7 +95,7 @@ void checkNodes(const JsonAt& root) {
         for (size_t k = 0; nodes && k < nodes->expectArray().size(); ++k) {
             const JsonAt link = nodes->at(k);
             const size_t node = link.index(count, "node");
-            if (parent[node] != count) link.fail(fmt::format("node {} is no root, it is a child of node {}", node, parent[node]));
+            if (parent[node] != count) link.fail(fmt::format("node {} is not a root: it is a child of node {}", node, parent[node]));
             if (!seen.insert(node).second) link.fail(fmt::format("node {} is listed twice", node));
         }
     }
@@ -106,7 +106,7 @@ void checkSkins(const JsonAt& root) {
     for (size_t i = 0; i < countOf(root, "skins"); ++i) {
         const JsonAt at = root.at("skins").at(i);
         const JsonAt joints = at.at("joints").expectArray();
-        if (joints.size() == 0 || joints.size() > 65535) joints.fail("must hold 1 to 65535 joints");
+        if (joints.size() == 0 || joints.size() > 65535) joints.fail("must have 1 to 65535 joints");
         std::set<size_t> seen;
         for (size_t k = 0; k < joints.size(); ++k) {
             const size_t joint = joints.at(k).index(countOf(root, "nodes"), "node");
@@ -117,7 +117,7 @@ void checkSkins(const JsonAt& root) {
             const size_t index = matrices->index(countOf(root, "accessors"), "accessor");
             const JsonAt accessor = root.at("accessors").at(index);
             if (accessor.at("type").text() != "MAT4" || accessor.at("componentType").whole() != 5126)
-                matrices->fail(fmt::format("accessor {} must hold MAT4 of floats", index));
+                matrices->fail(fmt::format("accessor {} must have type MAT4 and component type 5126 (float)", index));
             if (accessor.at("count").whole() < joints.size())
                 matrices->fail(fmt::format("accessor {} has {} matrices for {} joints", index, accessor.at("count").whole(), joints.size()));
         }
@@ -130,7 +130,8 @@ void checkSampler(const JsonAt& root, const JsonAt& at) {
         return root.at("accessors").at(index);
     };
     const JsonAt input = accessor("input");
-    if (input.at("type").text() != "SCALAR" || input.at("componentType").whole() != 5126) at.at("input").fail("must be an accessor of scalar floats");
+    if (input.at("type").text() != "SCALAR" || input.at("componentType").whole() != 5126)
+        at.at("input").fail("must be an accessor of type SCALAR and component type 5126 (float)");
     accessor("output");
     if (const auto name = at.find("interpolation"))
         if (name->text() != "LINEAR" && name->text() != "STEP" && name->text() != "CUBICSPLINE")
@@ -144,23 +145,24 @@ void checkChannel(const JsonAt& root, const JsonAt& animation, const JsonAt& at,
     const auto link = target.find("node");
     if (path != "translation" && path != "rotation" && path != "scale" && path != "weights") {
         // Pointers of KHR_animation_pointer come without a node and are ignored.
-        if (link || path != "pointer") target.at("path").fail(fmt::format("\"{}\" is unknown", path));
+        if (link || path != "pointer")
+            target.at("path").fail(fmt::format("\"{}\" is unknown; use translation, rotation, scale or weights", path));
         return;
     }
     if (!link) return;
     const size_t node = link->index(countOf(root, "nodes"), "node");
-    const JsonAt goal = root.at("nodes").at(node);
-    if (!seen.insert({node, path}).second) target.fail(fmt::format("{} of node {} is animated twice", path, node));
+    const JsonAt targetNode = root.at("nodes").at(node);
+    if (!seen.insert({node, path}).second) target.fail(fmt::format("{} of node {} is already animated by another channel", path, node));
     size_t perKey = 1;
     const JsonAt output = root.at("accessors").at(sampler.at("output").index(countOf(root, "accessors"), "accessor"));
     const std::string type = output.at("type").text();
     const uint64_t component = output.at("componentType").whole();
     const bool normalized = output.has("normalized") && output.at("normalized").truth();
     if (path == "weights") {
-        if (!goal.has("mesh") || targetsOf(root, goal.at("mesh").index(countOf(root, "meshes"), "mesh")) == 0)
+        if (!targetNode.has("mesh") || targetsOf(root, targetNode.at("mesh").index(countOf(root, "meshes"), "mesh")) == 0)
             target.fail(fmt::format("node {} has no morph targets to animate", node));
-        perKey = targetsOf(root, goal.at("mesh").index(countOf(root, "meshes"), "mesh"));
-    } else if (goal.has("matrix")) {
+        perKey = targetsOf(root, targetNode.at("mesh").index(countOf(root, "meshes"), "mesh"));
+    } else if (targetNode.has("matrix")) {
         target.fail(fmt::format("node {} has a matrix; only translation, rotation and scale can be animated", node));
     }
     const char* expected = path == "weights" ? "SCALAR" : path == "rotation" ? "VEC4" : "VEC3";

@@ -1,5 +1,4 @@
-// Compressed geometry: whole buffer views by meshoptimizer [EXT_meshopt_compression], primitives by Draco
-// [KHR_draco_mesh_compression].
+// Decompression: buffer views by meshoptimizer [EXT_meshopt_compression], primitives by Draco [KHR_draco_mesh_compression].
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -34,9 +33,10 @@ Bytes unpackView(Context& context, const Asset& asset, const tinygltf::Value& pa
     const size_t length = wholeOf(packed, "byteLength");
     const size_t count = wholeOf(packed, "count"), stride = wholeOf(packed, "byteStride");
     const std::string mode = textOf(packed, "mode"), filter = textOf(packed, "filter");
-    // The codecs spend at least one byte on 64 of output, so more than that is a lie that only costs memory.
+    // The codecs need at least 1 byte for 64 bytes of output. A claim far above that is false and would only allocate memory.
     if (count * stride > length * 256 + 65536)
-        context.fail(pointer, fmt::format("claims {} bytes from {} compressed ones", count * stride, length));
+        context.fail(pointer,
+                     fmt::format("{} bytes cannot be stored in {} compressed ones; compress the model again", count * stride, length));
     context.spend(uint64_t(count) * stride, pointer);
     Bytes out(count * stride);
     int status = -1;
@@ -86,8 +86,8 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
     draco::Decoder decoder;
     const double start = threadSeconds();
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    // A damaged stream can make Draco 1.5 decode two thousand million texture orientations, seconds of work nobody can
-    // interrupt. Honest data is decoded a hundred times faster than this; whoever exceeds it once gets no second turn.
+    // A damaged stream can make Draco 1.5 decode 2^31 texture orientations: seconds of work that cannot be interrupted. Valid data decodes
+    // 100 times faster than this limit. The model is rejected at the first primitive that exceeds it.
     if (threadSeconds() - start > 1.0 + 20e-6 * double(view.size()))
         context.fail(where, "the Draco data is damaged (it takes too long); compress the model again");
     if (!decoded.ok()) context.fail(where, fmt::format("the Draco data is damaged ({}); compress the model again", decoded.status().error_msg()));
@@ -105,11 +105,14 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
         const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(uint32_t(wholeOf(names, name.c_str())));
         const tinygltf::Accessor& accessor = asset.gltf->accessors[size_t(primitive.attributes.at(name))];
         const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
-        if (attribute == nullptr) context.fail(where + "/attributes/" + name, "the compressed mesh has no such attribute");
+        if (attribute == nullptr)
+            context.fail(where + "/attributes/" + name, "the compressed mesh has no attribute of that id; compress the model again");
         if (points != accessor.count)
-            context.fail(where, fmt::format("the compressed mesh has {} vertices, the accessor of {} has {}", points, name, accessor.count));
+            context.fail(where,
+                         fmt::format("the compressed mesh has {} vertices, but the accessor of {} has {}", points, name, accessor.count));
         if (attribute->num_components() != components)
-            context.fail(where + "/attributes/" + name, fmt::format("has {} components, its accessor {}", attribute->num_components(), components));
+            context.fail(where + "/attributes/" + name,
+                         fmt::format("has {} components, but its accessor has {}", attribute->num_components(), components));
         context.spend(uint64_t(points) * uint64_t(components) * 4, where);
         std::vector<float> values(points * size_t(components));
         for (draco::PointIndex point(0); point < uint32_t(points); ++point) {
@@ -118,7 +121,7 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
                 !attribute->ConvertValue<float>(index, int8_t(components), values.data() + size_t(point.value()) * size_t(components)))
                 context.fail(where + "/attributes/" + name, "the compressed mesh is damaged; compress the model again");
         }
-        // Draco keeps integers as they were; whether they are fractions is the accessor's to say.
+        // Draco keeps integers unchanged; the accessor says whether they are normalized.
         if (accessor.normalized && !attribute->normalized()) {
             const float largest = accessor.componentType == TINYGLTF_COMPONENT_TYPE_BYTE     ? 127.0f
                                   : accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ? 255.0f
@@ -127,7 +130,7 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
             for (float& value : values) value = std::max(value / largest, -1.0f);
         }
         for (const float value : values)
-            if (!std::isfinite(value)) context.fail(where + "/attributes/" + name, "holds a value that is not a finite number");
+            if (!std::isfinite(value)) context.fail(where + "/attributes/" + name, "has a value that is not a finite number");
         out.attributes[name] = std::move(values);
     }
     return out;

@@ -1,4 +1,4 @@
-// Bytes to JSON: the text and the binary container, with limits that keep hostile files from taking the parser down.
+// Bytes to JSON: the text and the binary container (GLB), with limits against hostile files.
 #include <cstring>
 #include <fstream>
 
@@ -11,8 +11,8 @@
 namespace obscura::scene::gltf {
 namespace {
 
-// Deep enough for any exporter's extras; the recursive passes behind this stay well inside the stack.
-constexpr int kDeepest = 64;
+// Nesting levels: enough for any exporter's extras, and few enough for the stack of the recursive passes that follow.
+constexpr int kMaxDepth = 64;
 
 constexpr uint32_t kMagic = 0x46546c67;      // "glTF"
 constexpr uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
@@ -35,7 +35,7 @@ void checkDepth(const Context& context, std::string_view text) {
         } else if (c == '"') {
             inString = true;
         } else if (c == '{' || c == '[') {
-            if (++depth > kDeepest) context.fail("", fmt::format("JSON nested deeper than {} levels", kDeepest));
+            if (++depth > kMaxDepth) context.fail("", fmt::format("JSON is nested deeper than {} levels", kMaxDepth));
         } else if (c == '}' || c == ']') {
             --depth;
         }
@@ -50,7 +50,7 @@ std::unique_ptr<nlohmann::json> parseText(const Context& context, std::string_vi
         return std::make_unique<nlohmann::json>(nlohmann::json::parse(text.begin(), text.end()));
     } catch (const nlohmann::json::exception& error) {
         std::string_view what = error.what();
-        // The library's own tag at the front tells a user nothing.
+        // Removes the library's own error code.
         if (const size_t end = what.find("] "); end != what.npos) what.remove_prefix(end + 2);
         context.fail("", fmt::format("is not valid JSON: {}", what));
     }
@@ -65,13 +65,12 @@ Document::Document(Document&&) noexcept = default;
 void Context::fail(std::string_view pointer, std::string_view what) const { throw Error(errorLine(file, pointer, what)); }
 
 void Context::warn(std::string_view pointer, std::string_view what) {
-    // A file with a million faults needs no million warnings.
-    constexpr size_t kMost = 100;
-    if (warnings.size() < kMost) warnings.push_back(errorLine(file, pointer, what));
+    constexpr size_t kMaxWarnings = 100;
+    if (warnings.size() < kMaxWarnings) warnings.push_back(errorLine(file, pointer, what));
 }
 
 void Context::spend(uint64_t bytes, std::string_view pointer) {
-    if (bytes > budget) fail(pointer, "needs more memory than the loader's limit allows; split the model or raise maxBytes");
+    if (bytes > budget) fail(pointer, "exceeds the loader's memory limit; split the model or raise maxBytes");
     budget -= size_t(bytes);
 }
 
@@ -90,12 +89,13 @@ void Context::addToHash(std::span<const uint8_t> bytes) {
 
 Bytes readFile(const Context& context, const std::filesystem::path& file, std::string_view pointer, uint64_t limit) {
     std::error_code error;
-    // A pipe or a device would hang or never end.
+    // Pipes and devices can block or never end.
     if (!std::filesystem::is_regular_file(file, error))
         context.fail(pointer, fmt::format("{} is missing or not a file", file.filename().string()));
     const uint64_t size = std::filesystem::file_size(file, error);
     if (error) context.fail(pointer, fmt::format("{} cannot be read: {}", file.filename().string(), error.message()));
-    if (size > limit) context.fail(pointer, fmt::format("{} has {} bytes, above the loader's limit", file.filename().string(), size));
+    if (size > limit)
+        context.fail(pointer, fmt::format("{} has {} bytes, above the loader's limit of {}", file.filename().string(), size, limit));
     Bytes bytes(size);
     std::ifstream in(file, std::ios::binary);
     if (!in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size)))
@@ -112,10 +112,11 @@ Document readDocument(Context& context, Bytes bytes) {
     }
     if (bytes.size() < 20) context.fail("", "ends inside the binary container's header; export it again");
     if (const uint32_t version = word(bytes, 4); version != 2)
-        context.fail("", fmt::format("is binary glTF version {}; only 2 is supported", version));
+        context.fail("", fmt::format("is binary glTF version {}; export as version 2", version));
     const size_t length = word(bytes, 8);
-    if (length > bytes.size()) context.fail("", fmt::format("says it has {} bytes but has {}; the file was cut", length, bytes.size()));
-    if (length < bytes.size()) context.warn("", fmt::format("{} bytes after its end are ignored", bytes.size() - length));
+    if (length > bytes.size())
+        context.fail("", fmt::format("is truncated: it has {} of {} bytes; copy or export it again", bytes.size(), length));
+    if (length < bytes.size()) context.warn("", fmt::format("{} bytes after the end of the container are ignored", bytes.size() - length));
 
     size_t offset = 12;
     for (int index = 0; offset < length; ++index) {
@@ -131,13 +132,13 @@ Document readDocument(Context& context, Bytes bytes) {
         } else if (type == kJsonChunk) {
             context.fail("", "has a second JSON chunk");
         } else if (type == kBinChunk) {
-            if (index != 1) context.fail("", fmt::format("the BIN chunk must come second, it is number {}", index + 1));
+            if (index != 1) context.fail("", fmt::format("the BIN chunk must be the second; it is number {}", index + 1));
             document.chunk.assign(bytes.begin() + ptrdiff_t(offset), bytes.begin() + ptrdiff_t(offset + size));
             document.hasChunk = true;
         }
         offset += size;
     }
-    if (!document.json) context.fail("", "holds no JSON chunk");
+    if (!document.json) context.fail("", "has no JSON chunk");
     return document;
 }
 

@@ -1,4 +1,4 @@
-// The bytes behind URIs: data URIs, the BIN chunk and files, which must lie in the model's own folder.
+// Reads the bytes of buffers and images: data URIs, the BIN chunk, and files, which must be inside the model's folder.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -44,19 +44,19 @@ Bytes base64Decode(const JsonAt& at, std::string_view text) {
         return table;
     }();
     while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-    if (text.size() % 4 == 1) at.fail("the data URI's base64 is cut short");
+    if (text.size() % 4 == 1) at.fail("the data URI's base64 is truncated; export the model again");
     Bytes out;
     out.reserve(text.size() / 4 * 3 + 3);
     uint32_t bits = 0;
-    int held = 0;
+    int bitCount = 0;
     for (const char c : text) {
         const int8_t digit = kTable[uint8_t(c)];
-        if (digit < 0) at.fail("the data URI holds a character that is not base64");
+        if (digit < 0) at.fail("the data URI has a character that is not base64; export the model again");
         bits = bits << 6 | uint32_t(digit);
-        held += 6;
-        if (held >= 8) {
-            held -= 8;
-            out.push_back(uint8_t(bits >> held));
+        bitCount += 6;
+        if (bitCount >= 8) {
+            bitCount -= 8;
+            out.push_back(uint8_t(bits >> bitCount));
         }
     }
     return out;
@@ -71,9 +71,9 @@ Bytes readData(const JsonAt& at, std::string_view uri) {
     return base64Decode(at, uri.substr(comma + 1));
 }
 
-// The file a URI means. Anything that is not below the model's folder once links are resolved is refused.
+// Resolves a URI to a file. Fails unless the file, with links resolved, is inside the model's folder.
 fs::path locate(const Context& context, const JsonAt& at, const std::string& uri) {
-    // A scheme [RFC 3986, 3.1] of more than one letter; one letter is a drive, refused below.
+    // A scheme [RFC 3986, 3.1] has more than one letter; a single letter is a drive, refused below.
     const size_t colon = uri.find(':');
     const bool scheme = colon != uri.npos && colon > 1 && std::all_of(uri.begin(), uri.begin() + ptrdiff_t(colon), [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.';
@@ -81,15 +81,15 @@ fs::path locate(const Context& context, const JsonAt& at, const std::string& uri
     if (scheme) at.fail(fmt::format("the address \"{}\" is not fetched; put the file beside the model", uri));
     if (context.folder.empty()) at.fail(fmt::format("refers to the file \"{}\", but this model was not opened from a folder", uri));
     const std::string name = percentDecode(uri);
-    if (name.empty()) at.fail("is an empty URI");
-    if (name.find('\0') != name.npos) at.fail("the URI holds a zero byte");
+    if (name.empty()) at.fail("the URI is empty");
+    if (name.find('\0') != name.npos) at.fail("the URI has a zero byte");
     fs::path relative(name);
     if (relative.is_absolute() || name.front() == '\\' || (name.size() > 1 && name[1] == ':'))
         at.fail(fmt::format("\"{}\" is an absolute path; only files in the model's folder are read", uri));
     std::error_code error;
     // Some exporters write names with a literal percent sign.
     if (!fs::exists(context.folder / relative, error) && fs::exists(context.folder / uri, error)) relative = uri;
-    // Refused before it is looked for: an error must not tell what exists elsewhere.
+    // Refused before the file is looked up: an error must not reveal which files exist elsewhere.
     if (*relative.lexically_normal().begin() == "..") at.fail(fmt::format("\"{}\" leaves the model's folder", uri));
     const fs::path file = fs::canonical(context.folder / relative, error);
     if (error) at.fail(fmt::format("the file \"{}\" cannot be found beside the model", uri));

@@ -1,5 +1,4 @@
-// PNG and JPEG to RGBA8, in parallel: images are independent, each result has its own place, so the order in which
-// threads finish cannot show.
+// Decodes PNG and JPEG to RGBA8, in parallel. One thread decodes each image, so the result does not depend on the threads' order.
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -14,8 +13,8 @@
 
 namespace {
 
-// A damaged PNG may claim chunks of a gigabyte, for which stb_image makes room before it looks for them. What one
-// allocation may take while an image is decoded; per thread, as decoding is.
+// Largest single allocation, in bytes, that stb_image may make for the image that this thread decodes. A damaged PNG can claim a chunk of a
+// gigabyte, and stb_image allocates a chunk before it reads it.
 thread_local size_t t_largest = 0;
 
 void* allocate(size_t size) { return size <= t_largest ? std::malloc(size) : nullptr; }
@@ -23,7 +22,7 @@ void* reallocate(void* old, size_t size) { return size <= t_largest ? std::reall
 
 }  // namespace
 
-// A copy of our own, limited to what glTF allows: other libraries of this process export the same names.
+// A private copy of stb_image, with PNG and JPEG only: other libraries in the process export the same symbols.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
@@ -37,11 +36,11 @@ void* reallocate(void* old, size_t size) { return size <= t_largest ? std::reall
 namespace obscura::scene::gltf {
 namespace {
 
-// Room for stb_image's tables and for what rounds up, beside four channels of 16 bits and the file itself.
+// Bytes for stb_image's tables and rounding, beside four channels of 16 bits and the file itself.
 constexpr size_t kScratch = size_t(1) << 20;
-constexpr int kWidest = 16384;  // pixels; what graphics devices take at most
+constexpr int kMaxSide = 16384;  // px; usual limit of graphics devices
 
-// Fills an image whose size is known. Returns what went wrong, empty when nothing did; nothing may be thrown from threads.
+// Decodes an image whose size is known. Returns an error text, empty on success: threads must not throw.
 std::string decode(const Bytes& bytes, Image& image) {
     int width = 0, height = 0, channels = 0;
     t_largest = size_t(image.width) * image.height * 8 + bytes.size() * 2 + kScratch;
@@ -54,7 +53,7 @@ std::string decode(const Bytes& bytes, Image& image) {
     try {
         image.rgba.assign(pixels.get(), pixels.get() + size_t(width) * size_t(height) * 4);
     } catch (const std::bad_alloc&) {
-        return "needs more memory than there is";
+        return "out of memory while decoding; reduce the image's size";
     }
     return {};
 }
@@ -65,7 +64,7 @@ Image white(const std::string& name, bool srgb) { return {name, 1, 1, srgb, {255
 
 std::vector<Image> decodeImages(Context& context, const Asset& asset, const std::vector<ImageUse>& uses, bool withImages) {
     std::vector<Image> images;
-    std::vector<size_t> decodes;  // uses that decode; a second use of a source copies
+    std::vector<size_t> decodes;  // uses to decode; later uses of the same source are copies
     for (size_t i = 0; i < uses.size(); ++i) {
         const auto& source = asset.gltf->images[size_t(uses[i].source)];
         images.push_back(white(source.name, uses[i].srgb));
@@ -75,9 +74,9 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
         t_largest = source.image.size() + kScratch;
         if (source.image.size() > size_t(INT32_MAX) ||
             !stbi_info_from_memory(source.image.data(), int(source.image.size()), &width, &height, &channels))
-            context.fail(pointer, "is no PNG or JPEG that can be read; save the image again");
-        if (width < 1 || height < 1 || width > kWidest || height > kWidest)
-            context.fail(pointer, fmt::format("is {} x {} pixels, at most {} x {} are taken", width, height, kWidest, kWidest));
+            context.fail(pointer, "is not a readable PNG or JPEG; save the image again");
+        if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+            context.fail(pointer, fmt::format("is {} x {} pixels; 1 to {} per side are supported", width, height, kMaxSide));
         context.spend(uint64_t(width) * uint64_t(height) * 4, pointer);
         images[i].width = uint32_t(width);
         images[i].height = uint32_t(height);
@@ -85,12 +84,12 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
         if (same == uses.begin() + ptrdiff_t(i)) decodes.push_back(i);
     }
 
-    std::vector<std::string> faults(uses.size());
+    std::vector<std::string> errors(uses.size());
     std::atomic<size_t> next{0};
     const auto work = [&] {
         for (size_t k = next++; k < decodes.size(); k = next++) {
             const size_t i = decodes[k];
-            faults[i] = decode(asset.gltf->images[size_t(uses[i].source)].image, images[i]);
+            errors[i] = decode(asset.gltf->images[size_t(uses[i].source)].image, images[i]);
         }
     };
     std::vector<std::thread> threads;
@@ -98,13 +97,13 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
     try {
         for (size_t i = 1; i < count; ++i) threads.emplace_back(work);
     } catch (const std::system_error&) {
-        // No more threads to be had: those there are do the work.
+        // The system allows no more threads; those already started do the work.
     }
     work();
     for (std::thread& thread : threads) thread.join();
 
     for (const size_t i : decodes)
-        if (!faults[i].empty()) context.fail(fmt::format("/images/{}", uses[i].source), faults[i]);
+        if (!errors[i].empty()) context.fail(fmt::format("/images/{}", uses[i].source), errors[i]);
     for (size_t i = 0; withImages && i < uses.size(); ++i)
         for (size_t k = 0; k < i && images[i].rgba.size() <= 4; ++k)
             if (uses[k].source == uses[i].source) images[i].rgba = images[k].rgba;

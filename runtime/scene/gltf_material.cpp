@@ -1,4 +1,4 @@
-// Materials, textures and samplers. An image used both as colour and as data appears twice, once as sRGB.
+// Materials, textures and samplers. An image that is used both as colour and as data is listed twice, once as sRGB.
 #include <map>
 #include <tuple>
 
@@ -35,10 +35,10 @@ float numberOf(const tinygltf::Value& object, const char* key, size_t element, f
     return otherwise;
 }
 
-// Collects the textures materials use, in order of first use.
-class Looks {
+// Collects the textures that materials use, in order of first use.
+class TextureTable {
 public:
-    Looks(Context& context, const Asset& asset, Model& model) : m_context(context), m_asset(asset), m_model(model) {}
+    TextureTable(Context& context, const Asset& asset, Model& model) : m_context(context), m_asset(asset), m_model(model) {}
 
     template <class Info>
     TextureUse use(const Info& info, bool srgb, const std::string& pointer) {
@@ -53,7 +53,8 @@ public:
             use.texCoord = int(numberOf(t, "texCoord", 0, float(use.texCoord)));
         }
         if (use.texCoord > 1) {
-            m_context.warn(pointer, fmt::format("texture coordinate set {} is not supported, the texture is left out", use.texCoord));
+            m_context.warn(pointer,
+                           fmt::format("texture coordinate set {} is not supported (0 and 1 are); the texture is ignored", use.texCoord));
             return {};
         }
         use.texture = texture(info.index, srgb, pointer);
@@ -68,11 +69,11 @@ private:
         if (!isNew) return it->second;
         const tinygltf::Texture& from = m_asset.gltf->textures[size_t(index)];
         if (from.source < 0) {
-            m_context.warn(pointer, fmt::format("texture {} has no image in a supported format, it is left out", index));
+            m_context.warn(pointer, fmt::format("texture {} has no PNG or JPEG image; it is ignored", index));
             return -1;
         }
         for (const auto& extension : from.extensions)
-            m_context.warn(pointer, fmt::format("texture {} uses its PNG or JPEG instead of {}", index, extension.first));
+            m_context.warn(pointer, fmt::format("texture {}: {} is not supported; its PNG or JPEG is used", index, extension.first));
         const auto [image, isNewImage] = m_images.try_emplace({from.source, srgb}, int(images.size()));
         if (isNewImage) images.push_back({from.source, srgb});
         Texture texture;
@@ -89,19 +90,20 @@ private:
     std::map<std::pair<int, bool>, int> m_textures, m_images;
 };
 
-// "extras": {"obscura_shell": "solid" | "flipped" | "sheet"}. Where nothing is said, what has holes and two sides is a card: a sheet.
+// "extras": {"obscura_shell": "solid" | "flipped" | "sheet"}. Default: sheet for double-sided alpha-masked materials, such as cards of
+// leaves; else solid.
 Shell shellOf(const tinygltf::Material& from, const Material& material, Context& context, const std::string& pointer) {
-    const Shell usual = material.alphaMode == AlphaMode::mask && material.doubleSided ? Shell::sheet : Shell::solid;
-    if (!from.extras.IsObject() || !from.extras.Has("obscura_shell")) return usual;
-    const tinygltf::Value& said = from.extras.Get("obscura_shell");
-    const std::string word = said.IsString() ? said.Get<std::string>() : "";
+    const Shell fallback = material.alphaMode == AlphaMode::mask && material.doubleSided ? Shell::sheet : Shell::solid;
+    if (!from.extras.IsObject() || !from.extras.Has("obscura_shell")) return fallback;
+    const tinygltf::Value& value = from.extras.Get("obscura_shell");
+    const std::string word = value.IsString() ? value.Get<std::string>() : "";
     for (const auto& [name, shell] : {std::pair("solid", Shell::solid), std::pair("flipped", Shell::flipped), std::pair("sheet", Shell::sheet)})
         if (word == name) return shell;
-    context.warn(pointer + "/extras/obscura_shell", "is neither \"solid\", \"flipped\" nor \"sheet\", it is ignored");
-    return usual;
+    context.warn(pointer + "/extras/obscura_shell", "must be \"solid\", \"flipped\" or \"sheet\"; it is ignored");
+    return fallback;
 }
 
-Material materialOf(Context& context, const tinygltf::Material& from, Looks& looks, const std::string& pointer) {
+Material materialOf(Context& context, const tinygltf::Material& from, TextureTable& textures, const std::string& pointer) {
     Material material;
     material.name = from.name;
     const auto& pbr = from.pbrMetallicRoughness;
@@ -120,21 +122,21 @@ Material materialOf(Context& context, const tinygltf::Material& from, Looks& loo
     material.unlit = from.extensions.count(kUnlit) != 0;
     material.shell = shellOf(from, material, context, pointer);
     const std::string inner = pointer + "/pbrMetallicRoughness";
-    material.baseColorTexture = looks.use(pbr.baseColorTexture, true, inner + "/baseColorTexture");
-    material.metallicRoughnessTexture = looks.use(pbr.metallicRoughnessTexture, false, inner + "/metallicRoughnessTexture");
-    material.normalTexture = looks.use(from.normalTexture, false, pointer + "/normalTexture");
-    material.emissionTexture = looks.use(from.emissiveTexture, true, pointer + "/emissiveTexture");
-    material.occlusionTexture = looks.use(from.occlusionTexture, false, pointer + "/occlusionTexture");
+    material.baseColorTexture = textures.use(pbr.baseColorTexture, true, inner + "/baseColorTexture");
+    material.metallicRoughnessTexture = textures.use(pbr.metallicRoughnessTexture, false, inner + "/metallicRoughnessTexture");
+    material.normalTexture = textures.use(from.normalTexture, false, pointer + "/normalTexture");
+    material.emissionTexture = textures.use(from.emissiveTexture, true, pointer + "/emissiveTexture");
+    material.occlusionTexture = textures.use(from.occlusionTexture, false, pointer + "/occlusionTexture");
     return material;
 }
 
 }  // namespace
 
 void addMaterials(Context& context, const Asset& asset, bool withImages, Model& model) {
-    Looks looks(context, asset, model);
+    TextureTable textures(context, asset, model);
     for (size_t i = 0; i < asset.gltf->materials.size(); ++i)
-        model.materials.push_back(materialOf(context, asset.gltf->materials[i], looks, fmt::format("/materials/{}", i)));
-    model.images = decodeImages(context, asset, looks.images, withImages);
+        model.materials.push_back(materialOf(context, asset.gltf->materials[i], textures, fmt::format("/materials/{}", i)));
+    model.images = decodeImages(context, asset, textures.images, withImages);
 }
 
 }  // namespace obscura::scene::gltf

@@ -1,5 +1,4 @@
-// Meshes: attributes from accessors or Draco, triangles from whatever topology the file has, morph targets, and then
-// what mesh_finish.cpp adds.
+// glTF meshes: attributes from accessors or Draco data, triangle lists from lists, strips and fans, morph targets; then mesh_finish.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +10,7 @@
 namespace obscura::scene::gltf {
 namespace {
 
-// Attributes of one primitive, by name, wherever they are stored.
+// Attributes of one primitive by name, from accessors or Draco data.
 class Source {
 public:
     Source(Context& context, const Asset& asset, const tinygltf::Primitive& primitive, std::string pointer)
@@ -86,7 +85,8 @@ void readJoints(Context& context, Source& source, size_t jointCount, Primitive& 
             for (size_t k = 0; k < 4; ++k) {
                 const float weight = values[i * 4 + k];
                 const uint32_t joint = indices[i * 4 + k];
-                if (weight < 0.0f) context.fail(source.at(weights), fmt::format("vertex {} has the negative weight {}", i, weight));
+                if (weight < 0.0f)
+                    context.fail(source.at(weights), fmt::format("vertex {} has the negative weight {}; weights are 0 or more", i, weight));
                 if (weight == 0.0f) continue;
                 if (joint >= jointCount)
                     context.fail(source.at(joints), fmt::format("vertex {} follows joint {}, but the skin has {}", i, joint, jointCount));
@@ -105,7 +105,8 @@ void readJoints(Context& context, Source& source, size_t jointCount, Primitive& 
             for (float& weight : weights) weight /= sum;
         }
     }
-    if (unweighted != 0) context.warn(source.pointer(), fmt::format("{} vertices have no joint weights and follow the first joint", unweighted));
+    if (unweighted != 0)
+        context.warn(source.pointer(), fmt::format("{} vertices have no joint weights; they follow the first joint", unweighted));
 }
 
 void readAttributes(Context& context, Source& source, size_t jointCount, Primitive& primitive) {
@@ -131,7 +132,7 @@ void readAttributes(Context& context, Source& source, size_t jointCount, Primiti
     }
     if (source.has("JOINTS_0") && jointCount > 0) readJoints(context, source, jointCount, primitive);
     for (const char* name : {"TEXCOORD_2", "COLOR_1", "JOINTS_2"})
-        if (source.has(name)) context.warn(source.at(name), "is not used");
+        if (source.has(name)) context.warn(source.at(name), "is not supported; it is ignored");
 }
 
 // Triangle lists from lists, strips and fans.
@@ -139,7 +140,8 @@ std::vector<uint32_t> triangles(Context& context, const std::string& pointer, in
     std::vector<uint32_t> out;
     if (mode == TINYGLTF_MODE_TRIANGLES) {
         out = in;
-        if (out.size() % 3 != 0) context.warn(pointer, fmt::format("{} indices make no whole triangles, the rest is left out", in.size()));
+        if (out.size() % 3 != 0)
+            context.warn(pointer, fmt::format("{} indices are not a multiple of 3; the last {} are ignored", in.size(), in.size() % 3));
         out.resize(out.size() / 3 * 3);
         return out;
     }
@@ -147,7 +149,7 @@ std::vector<uint32_t> triangles(Context& context, const std::string& pointer, in
     context.spend((in.size() - 2) * 12, pointer);
     out.reserve((in.size() - 2) * 3);
     for (uint32_t i = 0; i + 2 < in.size(); ++i) {
-        // glTF 2.0, 3.7.2.1: every second triangle of a strip is turned around.
+        // Every second triangle of a strip has reversed winding [glTF 2.0, 3.7.2.1].
         const bool odd = mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1;
         const uint32_t first = mode == TINYGLTF_MODE_TRIANGLE_FAN ? in[i + 1] : in[i];
         const uint32_t second = mode == TINYGLTF_MODE_TRIANGLE_FAN ? in[i + 2] : in[i + (odd ? 2 : 1)];
@@ -165,14 +167,14 @@ std::vector<Primitive::Target> readTargets(Context& context, const Asset& asset,
             if (name == "POSITION") target.positions = asVectors<glm::vec3>(readFloats(context, asset, accessor));
             else if (name == "NORMAL") target.normals = asVectors<glm::vec3>(readFloats(context, asset, accessor));
             else if (name == "TANGENT") target.tangents = asVectors<glm::vec3>(readFloats(context, asset, accessor));
-            else context.warn(fmt::format("{}/targets/{}", pointer, i), fmt::format("{} is not morphed", name));
+            else context.warn(fmt::format("{}/targets/{}", pointer, i), fmt::format("morphing of {} is not supported; ignored", name));
         }
         targets.push_back(std::move(target));
     }
     return targets;
 }
 
-// Normals of length zero cannot be lit: they are repaired from the triangles around them.
+// Replaces normals of length 0 by the area-weighted mean normal of the triangles at the vertex.
 void repairNormals(Context& context, const std::string& pointer, Primitive& primitive) {
     std::vector<glm::vec3> sums;
     size_t repaired = 0;
@@ -191,10 +193,10 @@ void repairNormals(Context& context, const std::string& pointer, Primitive& prim
         primitive.normals[v] = n != glm::vec3(0.0f) ? n : glm::vec3(0.0f, 1.0f, 0.0f);
         ++repaired;
     }
-    if (repaired != 0) context.warn(pointer, fmt::format("{} normals of length zero were replaced", repaired));
+    if (repaired != 0) context.warn(pointer, fmt::format("{} normals have length 0; they are computed from their triangles", repaired));
 }
 
-// How many joints the skins have that deform a mesh: the fewest, so that every joint index holds for each of them.
+// Per mesh, the smallest joint count of the skins that deform it: joint indices below it are valid in all of them.
 std::vector<size_t> jointCounts(const tinygltf::Model& gltf) {
     std::vector<size_t> counts(gltf.meshes.size(), 0);
     for (const auto& node : gltf.nodes) {
@@ -206,7 +208,7 @@ std::vector<size_t> jointCounts(const tinygltf::Model& gltf) {
     return counts;
 }
 
-// What one vertex costs once everything is filled in, for the budget.
+// Bytes of a vertex with generated attributes, for the budget.
 constexpr uint64_t kVertexBytes = 12 + 12 + 16 + 8;
 
 }  // namespace
@@ -222,11 +224,11 @@ void addMeshes(Context& context, const Asset& asset, Model& model) {
             const tinygltf::Primitive& source = from.primitives[p];
             const std::string pointer = fmt::format("/meshes/{}/primitives/{}", m, p);
             if (source.mode < TINYGLTF_MODE_TRIANGLES) {
-                context.warn(pointer, "points and lines are not drawn");
+                context.warn(pointer, "points and lines are not supported; the primitive is ignored");
                 continue;
             }
             if (source.attributes.count("POSITION") == 0) {
-                context.warn(pointer, "has no positions and is not drawn");
+                context.warn(pointer, "has no POSITION; the primitive is ignored");
                 continue;
             }
             Primitive primitive;

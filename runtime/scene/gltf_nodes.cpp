@@ -1,4 +1,4 @@
-// Nodes, skins, lenses and the chosen scene's roots and order.
+// glTF nodes, skins and cameras; roots and node order of the selected scene.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,8 @@
 namespace obscura::scene::gltf {
 namespace {
 
-// Matrix to translation, rotation, scale, when it holds nothing else; a mirroring goes into the x scale.
+// Decomposes a matrix into translation, rotation and scale. False if it has shear, projection or a scale of 0. Mirroring becomes a negative
+// x scale.
 bool decompose(const glm::mat4& matrix, Node& node) {
     if (matrix[0].w != 0.0f || matrix[1].w != 0.0f || matrix[2].w != 0.0f || matrix[3].w != 1.0f) return false;
     glm::mat3 axes(matrix);
@@ -19,7 +20,6 @@ bool decompose(const glm::mat4& matrix, Node& node) {
     if (!(std::min({scale.x, scale.y, scale.z}) > 1e-12f) || !std::isfinite(scale.x + scale.y + scale.z)) return false;
     if (glm::determinant(axes) < 0.0f) scale.x = -scale.x;
     for (int i = 0; i < 3; ++i) axes[i] /= scale[i];
-    // Sheared axes are no rotation.
     const float skew = std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])), std::abs(glm::dot(axes[2], axes[0]))});
     if (skew > 1e-4f) return false;
     node.translation = glm::vec3(matrix[3]);
@@ -50,7 +50,8 @@ Node nodeOf(Context& context, const tinygltf::Node& from, const std::string& poi
     if (!from.rotation.empty()) {
         glm::dvec4 q(from.rotation[0], from.rotation[1], from.rotation[2], from.rotation[3]);
         const double length = glm::length(q);
-        if (std::abs(length - 1.0) > 1e-3) context.warn(pointer + "/rotation", fmt::format("is a quaternion of length {}, it was normalized", length));
+        if (std::abs(length - 1.0) > 1e-3)
+            context.warn(pointer + "/rotation", fmt::format("quaternion of length {}, normalized to 1", length));
         q /= length;
         node.rotation = glm::quat(float(q.w), float(q.x), float(q.y), float(q.z));
     }
@@ -63,11 +64,11 @@ Lens lensOf(Context& context, const tinygltf::Camera& from, const std::string& p
     lens.name = from.name;
     lens.perspective = from.type == "perspective";
     if (lens.perspective) {
-        constexpr float kWidest = 2.967f;  // 170 degrees
+        constexpr float kMaxFov = 2.967f;  // 170 degrees
         lens.fovY = float(from.perspective.yfov);
-        if (lens.fovY > kWidest) {
-            context.warn(pointer, fmt::format("sees {} radians, reduced to {}", lens.fovY, kWidest));
-            lens.fovY = kWidest;
+        if (lens.fovY > kMaxFov) {
+            context.warn(pointer, fmt::format("field of view of {} radians, reduced to {}", lens.fovY, kMaxFov));
+            lens.fovY = kMaxFov;
         }
         lens.aspect = float(from.perspective.aspectRatio);
         lens.nearPlane = float(from.perspective.znear);
@@ -93,15 +94,15 @@ Skin skinOf(Context& context, const Asset& asset, const tinygltf::Skin& from) {
 
 void chooseScene(Context& context, const tinygltf::Model& gltf, int scene, Model& model) {
     if (scene >= int(gltf.scenes.size()))
-        context.fail("/scenes", fmt::format("scene {} was asked for, the file has {}", scene, gltf.scenes.size()));
+        context.fail("/scenes", fmt::format("scene {} does not exist: there are {}, counted from 0", scene, gltf.scenes.size()));
     if (scene < 0) scene = gltf.defaultScene >= 0 ? gltf.defaultScene : 0;
     if (size_t(scene) < gltf.scenes.size()) {
         model.roots = gltf.scenes[size_t(scene)].nodes;
-    } else {  // a file without scenes is a library of parts: show them all
+    } else {  // without scenes: all root nodes
         for (size_t i = 0; i < model.nodes.size(); ++i)
             if (model.nodes[i].parent < 0) model.roots.push_back(int(i));
     }
-    // Depth first without recursion: a chain of nodes may be as long as the file.
+    // Depth first without recursion: a chain of nodes can be too long for the call stack.
     std::vector<int> stack(model.roots.rbegin(), model.roots.rend());
     while (!stack.empty()) {
         const int node = stack.back();
@@ -128,7 +129,8 @@ void addNodes(Context& context, const Asset& asset, int scene, Model& model) {
     for (size_t i = 0; i < model.skins.size(); ++i)
         for (const int joint : model.skins[i].joints)
             if (!reached[size_t(joint)]) {
-                context.warn(fmt::format("/skins/{}/joints", i), fmt::format("joint node {} is not in the scene and stays at the origin", joint));
+                context.warn(fmt::format("/skins/{}/joints", i),
+                             fmt::format("joint node {} is not in the scene; it stays at the origin", joint));
                 break;
             }
 }

@@ -1,6 +1,6 @@
-// The stages of the glTF loader, private to this folder. They run in this order, each on what the one before left:
-// container (bytes -> JSON) -> check (structure) -> files (buffers and images' bytes) -> parse (tinygltf) -> compress
-// (meshopt views) -> images, materials, meshes, nodes, animations. After `check` every index in the file is in range.
+// The stages of the glTF loader, private to this folder. In order: container (bytes -> JSON), check (validation), files (bytes of buffers
+// and images), parse (tinygltf), compress (meshopt views), then images, materials, meshes, nodes, animations. After `check` every index in
+// the file is in range.
 #pragma once
 
 #include <cstdint>
@@ -32,17 +32,17 @@ inline constexpr const char* kUnlit = "KHR_materials_unlit";
 inline constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
 inline constexpr const char* kQuantization = "KHR_mesh_quantization";
 
-// What every stage needs: whose fault it is, how much may still be allocated, where warnings go.
+// State shared by the stages: names for errors, the memory budget, warnings.
 struct Context {
-    std::string file;              // as errors show it
-    std::filesystem::path folder;  // canonical; empty: files beside the model are refused
+    std::string file;              // as shown in errors
+    std::filesystem::path folder;  // of the model, canonical; empty: external files are refused
     size_t budget = 0;             // bytes that may still be decoded
     uint64_t hash = 14695981039346656037ull;
     std::vector<std::string> warnings;
 
     [[noreturn]] void fail(std::string_view pointer, std::string_view what) const;
     void warn(std::string_view pointer, std::string_view what);
-    void spend(uint64_t bytes, std::string_view pointer);  // fails when the budget does not last
+    void spend(uint64_t bytes, std::string_view pointer);  // takes bytes from the budget; fails if it is exceeded
     void addToHash(std::span<const uint8_t> bytes);
 };
 
@@ -51,17 +51,17 @@ struct Document {
     ~Document();
     Document(Document&&) noexcept;
     std::unique_ptr<nlohmann::json> json;
-    Bytes chunk;  // the binary container's BIN chunk
+    Bytes chunk;  // BIN chunk of the binary container
     bool hasChunk = false;
 };
 
-// One tinygltf model whose buffer views have been resolved, decompressed where they were compressed.
+// A tinygltf model with its buffer views resolved and decompressed.
 struct Asset {
     Asset();
     ~Asset();
     Asset(Asset&&) noexcept;
     std::unique_ptr<tinygltf::Model> gltf;
-    std::vector<bool> hasData;                    // per buffer; without, it only makes room for compressed views
+    std::vector<bool> hasData;                    // per buffer; one without data only gives compressed views their size
     std::vector<std::span<const uint8_t>> views;  // per bufferView, into buffers or `unpacked`; empty without data
     std::vector<Bytes> unpacked;
 };
@@ -72,16 +72,16 @@ Document readDocument(Context& context, Bytes bytes);
 
 // gltf_check.cpp, gltf_check_looks.cpp, gltf_check_nodes.cpp
 void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk);
-void checkLooks(Context& context, const nlohmann::json& json, bool hasChunk);  // images, samplers, textures, materials
-void checkMeshes(Context& context, const nlohmann::json& json);   // primitives' references and counts
+void checkMaterials(Context& context, const nlohmann::json& json, bool hasChunk);  // images, samplers, textures, materials
+void checkMeshes(Context& context, const nlohmann::json& json);   // references and counts of primitives
 void checkScenes(Context& context, const nlohmann::json& json);   // cameras, nodes, skins, scenes, animations
 int componentsOf(std::string_view type);                          // "VEC3" -> 3, 0 when unknown
 size_t bytesOf(int componentType);                                // 5126 -> 4, 0 when unknown
 size_t elementBytes(std::string_view type, int componentType);    // matrix columns padded to four bytes
 size_t lastElementBytes(std::string_view type, int componentType);  // an accessor may end before its last padding
 
-// gltf_files.cpp: the bytes behind each buffer and image, in order. Buffers come cut to their byteLength, empty where
-// the file gives them no data. Images not in `wanted` are only looked for.
+// gltf_files.cpp: the bytes of each buffer and image, in order. Buffers are cut to their byteLength, and empty where the file gives them no
+// data. Files of images that are not `wanted` must exist, but are not read.
 std::vector<Bytes> readBuffers(Context& context, Document& document);
 std::vector<Bytes> readImages(Context& context, const nlohmann::json& json, const std::vector<bool>& wanted);
 
@@ -114,8 +114,8 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
 // gltf_mesh.cpp
 void addMeshes(Context& context, const Asset& asset, Model& model);
 
-// mesh_finish.cpp: what the file left out.
-void addFlatNormals(Primitive& primitive);  // unshares all vertices
+// mesh_finish.cpp: data that the file lacks.
+void addFlatNormals(Primitive& primitive);  // gives every triangle vertices of its own
 void addTangents(Primitive& primitive, int texCoord);
 void addBounds(Primitive& primitive);
 

@@ -1,4 +1,4 @@
-// Names things by their content: what is kept on disk between runs.
+// Content hashes: the names of cached files.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace obscura::scene {
 
-// 128 bits of what was added, in order. Not against an adversary.
+// 128-bit hash of the values added, in order. Not cryptographic.
 class Hash {
 public:
     Hash& add(const void* bytes, size_t count);
@@ -22,8 +22,8 @@ private:
     uint64_t m_a = 0x243f6a8885a308d3ull, m_b = 0x13198a2e03707344ull, m_words = 0;
 };
 
-// Where such files live: OBSCURA_CACHE, else $XDG_CACHE_HOME/obscura, else $HOME/.cache/obscura, else empty. OBSCURA_CACHE=""
-// turns keeping off.
+// Folder of cached files: $OBSCURA_CACHE, else $XDG_CACHE_HOME/obscura, else $HOME/.cache/obscura, else empty. OBSCURA_CACHE="" turns the
+// cache off.
 std::filesystem::path cacheFolder();
 
 }  // namespace obscura::scene

@@ -8,7 +8,7 @@ namespace obscura::scene {
 
 std::string errorLine(std::string_view file, std::string_view pointer, std::string_view what) {
     std::string line = pointer.empty() ? fmt::format("{}: {}", file, what) : fmt::format("{}: {}: {}", file, pointer, what);
-    // Names inside a file may hold line breaks; a complaint about them may not.
+    // Names inside the file can contain line breaks; an error must not.
     for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
     constexpr size_t kLongest = 600;
@@ -48,7 +48,7 @@ void JsonAt::only(std::initializer_list<std::string_view> keys) const {
     expectObject();
     for (const auto& item : m_json->items())
         if (std::find(keys.begin(), keys.end(), item.key()) == keys.end())
-            fail(fmt::format("unknown field \"{}\"; known are {}", item.key(), fmt::join(keys, ", ")));
+            fail(fmt::format("unknown field \"{}\"; use {}", item.key(), fmt::join(keys, ", ")));
 }
 
 std::string JsonAt::text() const {
@@ -62,29 +62,29 @@ bool JsonAt::truth() const {
 }
 
 uint64_t JsonAt::whole(uint64_t low, uint64_t high) const {
-    if (!m_json->is_number_unsigned()) fail("must be a whole number, zero or more");
+    if (!m_json->is_number_unsigned()) fail("must be a whole number, 0 or more");
     const uint64_t value = m_json->get<uint64_t>();
-    if (value < low || value > high) fail(fmt::format("{} is out of range; allowed are {} to {}", value, low, high));
+    if (value < low || value > high) fail(fmt::format("{} is out of range; use {} to {}", value, low, high));
     return value;
 }
 
 double JsonAt::number(double low, double high) const {
     if (!m_json->is_number()) fail(fmt::format("must be a number, not {}", m_json->type_name()));
     const double value = m_json->get<double>();
-    if (!(value >= low && value <= high)) fail(fmt::format("{} is out of range; allowed are {} to {}", value, low, high));
+    if (!(value >= low && value <= high)) fail(fmt::format("{} is out of range; use {} to {}", value, low, high));
     return value;
 }
 
 void JsonAt::expectNumbers(size_t count) const {
     expectArray();
-    if (size() != count) fail(fmt::format("must hold {} numbers, has {}", count, size()));
+    if (size() != count) fail(fmt::format("must have {} numbers, has {}", count, size()));
     for (size_t i = 0; i < count; ++i) at(i).number();
 }
 
 size_t JsonAt::index(size_t count, const char* what) const {
-    if (!m_json->is_number_unsigned()) fail(fmt::format("must be the index of {}", what));
+    if (!m_json->is_number_unsigned()) fail(fmt::format("must be a whole number: the {}'s index", what));
     const uint64_t value = m_json->get<uint64_t>();
-    if (value >= count) fail(fmt::format("names {} {}, but there are only {}", what, value, count));
+    if (value >= count) fail(fmt::format("{} {} does not exist: there are {}, counted from 0", what, value, count));
     return size_t(value);
 }
 

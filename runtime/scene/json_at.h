@@ -1,5 +1,4 @@
-// A JSON value together with where it stands, so that every complaint can name its file and JSON pointer. All readers
-// throw Error when the value has another type or lies outside the range asked for.
+// A JSON value with its file name and JSON pointer, for error messages. Readers throw Error if type or range is wrong.
 #pragma once
 
 #include <cfloat>
@@ -14,13 +13,13 @@
 
 namespace obscura::scene {
 
-// "file: /pointer: what", in one line whatever the parts contain.
+// "file: /pointer: what". Control characters become '?'; lines of more than 600 characters are cut.
 std::string errorLine(std::string_view file, std::string_view pointer, std::string_view what);
 
 class JsonAt {
 public:
     using Json = nlohmann::json;
-    static constexpr uint64_t kLargest = uint64_t(1) << 53;  // what a JSON number holds exactly
+    static constexpr uint64_t kLargest = uint64_t(1) << 53;  // up to here a double holds integers exactly
 
     JsonAt(const std::string& file, const Json& json, std::string pointer = {})
         : m_file(&file), m_json(&json), m_pointer(std::move(pointer)) {}
@@ -31,8 +30,8 @@ public:
 
     // Members and elements.
     bool has(const char* key) const { return m_json->contains(key); }
-    JsonAt at(const char* key) const;                   // fails when missing
-    std::optional<JsonAt> find(const char* key) const;  // nothing when missing
+    JsonAt at(const char* key) const;                   // fails if missing
+    std::optional<JsonAt> find(const char* key) const;  // empty if missing
     JsonAt at(size_t index) const;                      // of an array, index < size()
     size_t size() const { return m_json->size(); }
     const JsonAt& expectObject() const;
@@ -44,8 +43,8 @@ public:
     bool truth() const;
     uint64_t whole(uint64_t low = 0, uint64_t high = kLargest) const;
     double number(double low = -double(FLT_MAX), double high = double(FLT_MAX)) const;
-    void expectNumbers(size_t count) const;  // an array of exactly so many
-    // Index into an array of `count` things called `what`.
+    void expectNumbers(size_t count) const;  // an array of exactly `count` numbers
+    // Index into an array of `count` elements; `what` names an element in errors.
     size_t index(size_t count, const char* what) const;
 
 private:

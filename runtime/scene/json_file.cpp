@@ -30,7 +30,7 @@ std::vector<std::string> texts(const JsonAt& at) {
     std::vector<std::string> list;
     at.expectArray();
     for (size_t i = 0; i < at.size(); ++i) list.push_back(at.at(i).text());
-    if (list.empty()) at.fail("must name at least one");
+    if (list.empty()) at.fail("must have at least one string");
     return list;
 }
 

@@ -1,4 +1,4 @@
-// The small JSON files of this project: read whole, errors name the file.
+// Reads the project's JSON files, up to 16 MiB; errors name the file.
 #pragma once
 
 #include <filesystem>
@@ -22,6 +22,6 @@ private:
 };
 
 glm::vec3 vector3(const JsonAt& at);
-std::vector<std::string> texts(const JsonAt& at);  // a list of at least one
+std::vector<std::string> texts(const JsonAt& at);  // an array of strings, not empty
 
 }  // namespace obscura::scene

@@ -1,4 +1,4 @@
-// What files leave out: flat normals, tangents, bounds.
+// Generates data that files lack: flat normals, tangents, bounds.
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +38,7 @@ void addFlatNormals(Primitive& primitive) {
     unshare(primitive.weights, primitive.indices);
     for (Primitive::Target& target : primitive.targets) {
         unshare(target.positions, primitive.indices);
-        target.normals.clear();  // they belonged to normals the file does not have [glTF 2.0, 3.7.2.2]
+        target.normals.clear();  // displacements of normals that the file does not have [glTF 2.0, 3.7.2.2]
         target.tangents.clear();
     }
     for (size_t i = 0; i < primitive.indices.size(); ++i) primitive.indices[i] = uint32_t(i);
@@ -53,7 +53,7 @@ void addFlatNormals(Primitive& primitive) {
     primitive.normals.resize(primitive.positions.size());
     for (size_t i = 0; i + 2 < primitive.positions.size(); i += 3)
         std::fill_n(primitive.normals.begin() + ptrdiff_t(i), 3, faceNormal(i, nullptr));
-    // Flat faces turn with their morph; displacing towards the target's own face normal is exact at weights 0 and 1.
+    // Morphing turns flat faces. The displacement to the target's face normal is exact at weights 0 and 1.
     for (Primitive::Target& target : primitive.targets) {
         if (target.positions.empty()) continue;
         target.normals.resize(primitive.positions.size());
@@ -74,7 +74,7 @@ void addTangents(Primitive& primitive, int texCoord) {
             const glm::vec2 d1 = uv[t[1]] - uv[t[0]], d2 = uv[t[2]] - uv[t[0]];
             const float area = d1.x * d2.y - d2.x * d1.y;
             if (area == 0.0f || !std::isfinite(area)) continue;
-            // Weighted by the triangle's area in space, not by how its texture is stretched.
+            // Weighted by the triangle's area in space, not in texture coordinates.
             const float weight = glm::length(glm::cross(e1, e2));
             const float sign = area < 0.0f ? -1.0f : 1.0f;
             const glm::vec3 u = weight * unitOr(sign * (e1 * d2.y - e2 * d1.y), glm::vec3(0.0f));
@@ -88,7 +88,7 @@ void addTangents(Primitive& primitive, int texCoord) {
         for (size_t i = 0; i < count; ++i) {
             const glm::vec3& n = primitive.normals[i];
             const glm::vec3 t = unitOr(along[i] - n * glm::dot(n, along[i]), perpendicular(n));
-            // Normal maps count green upwards while v runs down the image: cross(n, t) * w points against v.
+            // Green of a normal map points up, v points down: cross(n, t) * w is -v.
             primitive.tangents[i] = glm::vec4(t, glm::dot(glm::cross(n, t), across[i]) > 0.0f ? -1.0f : 1.0f);
         }
     }

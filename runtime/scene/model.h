@@ -1,6 +1,5 @@
-// A glTF asset as plain data on the CPU: what a loader fills and what pose, renderer, voxels and references read.
-// Immutable once loaded; shared between instances by std::shared_ptr<const Model>. Units are metres, y up, right-handed,
-// exactly as glTF has them. Index fields are -1 where nothing is referenced.
+// A glTF model as plain data on the CPU. The loader fills it; pose, renderer, voxels and references read it. Immutable once loaded, shared
+// by std::shared_ptr<const Model>. Right-handed, y up, metres, as in glTF. Indices are -1 for "none".
 #pragma once
 
 #include <array>
@@ -23,7 +22,7 @@ struct Sampler {
     bool mipmaps = true;
 };
 
-// 8-bit RGBA, rows top to bottom, tightly packed. `srgb` is decided by how materials use the image (colour or data).
+// 8-bit RGBA, rows top to bottom, tightly packed. `srgb` follows from the image's use in materials (colour or data).
 struct Image {
     std::string name;
     uint32_t width = 0;
@@ -48,8 +47,8 @@ struct TextureUse {
 
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
-// What lies behind a front face: the inside of a solid up to the next back face; the same of a solid that is wound the other
-// way round; or nothing, where the triangles are an open sheet.
+// How depth layers treat triangles. solid: closed, front faces outside; flipped: closed, wound the other way round; sheet: open, without an
+// inside.
 enum class Shell : uint8_t { solid, flipped, sheet };
 
 struct Material {
@@ -110,7 +109,7 @@ struct Skin {
     std::vector<glm::mat4> inverseBindMatrices;  // one per joint
 };
 
-// Local transform of a node: matrix nodes are decomposed when they can be, else kept in `matrix` (hasMatrix).
+// A node and its local transform. Matrices are decomposed where possible, else kept in `matrix` (hasMatrix).
 struct Node {
     std::string name;
     int parent = -1;
@@ -155,7 +154,7 @@ struct Animation {
 
 struct Model {
     std::string name;    // file stem
-    uint64_t hash = 0;   // of everything that determines geometry and look: files' bytes
+    uint64_t hash = 0;   // of the bytes of all files read, and of the scene index
     std::vector<Image> images;
     std::vector<Texture> textures;
     std::vector<Material> materials;

@@ -120,13 +120,13 @@ void deform(const Model& model, int node, const Primitive& primitive, const Pose
         if (normals != nullptr)
             for (size_t i = 0; i < target.normals.size(); ++i) (*normals)[i] += weights[t] * target.normals[i];
     }
-    const auto direct = [](const glm::mat3& cofactors, const glm::vec3& n) {
+    const auto transformed = [](const glm::mat3& cofactors, const glm::vec3& n) {
         const glm::vec3 out = cofactors * n;
         const float length = glm::length(out);
         return length > 0.0f ? out / length : n;
     };
-    // Cofactors in place of the inverse transpose: the same direction, and defined where a scale is zero. They keep the
-    // determinant's sign, which the inverse transpose divides out.
+    // The cofactor matrix instead of the inverse transpose: the same direction, and defined for a scale of 0. The inverse transpose also
+    // divides by the determinant, hence the sign.
     const auto cofactors = [](const glm::mat3& m) {
         const float sign = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
         return sign * glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
@@ -139,15 +139,15 @@ void deform(const Model& model, int node, const Primitive& primitive, const Pose
             for (size_t k = 0; k < size_t(Primitive::kInfluences); ++k)
                 if (primitive.weights[i][k] != 0.0f) blend += primitive.weights[i][k] * joints[primitive.joints[i][k]];
             positions[i] = glm::vec3(blend * glm::vec4(positions[i], 1.0f));
-            if (normals != nullptr) (*normals)[i] = direct(cofactors(glm::mat3(blend)), (*normals)[i]);
+            if (normals != nullptr) (*normals)[i] = transformed(cofactors(glm::mat3(blend)), (*normals)[i]);
         }
         return;
     }
     const glm::mat4& world = pose.world[size_t(node)];
     for (glm::vec3& p : positions) p = glm::vec3(world * glm::vec4(p, 1.0f));
     if (normals != nullptr) {
-        const glm::mat3 turn = cofactors(glm::mat3(world));
-        for (glm::vec3& n : *normals) n = direct(turn, n);
+        const glm::mat3 normalMatrix = cofactors(glm::mat3(world));
+        for (glm::vec3& n : *normals) n = transformed(normalMatrix, n);
     }
 }
 

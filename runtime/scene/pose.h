@@ -1,4 +1,4 @@
-// A Model at one moment: node matrices, joint matrices, morph weights. Pure functions of (model, animation, time).
+// A Model at a time: node matrices, joint matrices, morph weights. Pure functions of (model, animation, time).
 #pragma once
 
 #include <vector>
@@ -20,8 +20,8 @@ Pose evaluate(const Model& model, int animation, float time, bool loop = true);
 // skinned geometry [glTF 2.0, 3.7.3].
 std::vector<glm::mat4> jointMatrices(const Model& model, const Skin& skin, const Pose& pose);
 
-// Positions (and optionally normals, may be null) of a primitive after morphing and skinning, in model space. What the
-// GPU's skinning pass computes, on the CPU: the reference it is tested against, and the truth's and voxels' source.
+// Positions, and normals unless null, of a primitive after morphing and skinning, in model space. The CPU version of
+// shaders/scene/deform.comp: its test reference, and the input of the modules truth and voxel.
 void deform(const Model& model, int node, const Primitive& primitive, const Pose& pose,
             std::vector<glm::vec3>& positions, std::vector<glm::vec3>* normals);
 

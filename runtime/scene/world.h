@@ -1,5 +1,4 @@
-// What is in the world: instances of models. The game owns one World and changes it; renderer, voxels and references
-// read it at a time.
+// The world: instances of models. The game owns and changes one World; renderer, voxels and references evaluate it at a time.
 #pragma once
 
 #include <memory>
@@ -15,7 +14,7 @@ struct Instance {
     int animation = 0;          // -1: rest pose
     float timeOffset = 0.0f;    // seconds added to the world's time
     int root = -1;              // draw only this node's subtree; -1 draws all
-    uint32_t id = 0;            // stable over the instance's life, unique in the world, never 0
+    uint32_t id = 0;            // set by World::add(): constant, unique in the world, not 0
 };
 
 class World {
@@ -27,7 +26,7 @@ public:
     const std::vector<Instance>& instances() const { return m_instances; }
     std::vector<Instance>& instances() { return m_instances; }
     size_t triangleCount() const;
-    // Longest animation of any instance, seconds; 0 when nothing moves.
+    // Longest animation of any instance, seconds; 0 without animations.
     float duration() const;
 
 private:
@@ -35,7 +34,7 @@ private:
     uint32_t m_nextId = 1;
 };
 
-// The world's triangles at a time, world space, posed. One entry per drawn primitive, in drawing order.
+// The world's posed triangles at a time, in world space. One entry per drawn primitive, in drawing order.
 struct PosedPrimitive {
     const Model* model = nullptr;
     const Primitive* primitive = nullptr;  // indices, uv, colours

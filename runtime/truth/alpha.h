@@ -1,4 +1,4 @@
-// Whether a point of a masked primitive is there: texture alpha x factor x vertex alpha against the cutoff. Private to truth.
+// Alpha test of masked primitives: texture alpha x factor x vertex alpha against the cutoff. Private to truth.
 #pragma once
 
 #include "scene/world.h"
@@ -8,7 +8,7 @@ namespace obscura::truth {
 class AlphaMask {
 public:
     AlphaMask(const scene::Model& model, const scene::Primitive& primitive);
-    bool open(uint32_t triangle, float u, float v) const;  // barycentrics of the second and third corner; true: a ray passes
+    bool open(uint32_t triangle, float u, float v) const;  // u, v: barycentrics of the second and third corner; true: the ray passes
 
 private:
     float texel(int x, int y) const;

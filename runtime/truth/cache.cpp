@@ -1,4 +1,4 @@
-// References on disk: one EXR a reference, named by its key.
+// References on disk: one EXR per reference, named by its key.
 #include "truth/cache.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace obscura::truth {
 namespace {
 
-// Raised whenever the same inputs would give another picture: rays, offsets, estimates.
+// Cache version: raise it when the same inputs give another result (rays, offsets, estimates).
 constexpr uint32_t kVersion = 1;
 constexpr const char* kRays = "rays";
 
@@ -40,8 +40,8 @@ void add(Hash& hash, const RayOptions& options) {
 Reference read(const std::filesystem::path& file) {
     Picture picture = readExr(file);
     Reference reference;
-    const auto require = [&](bool good) {
-        if (!good) throw scene::Error(file.string() + ": is not a stored reference");
+    const auto require = [&](bool valid) {
+        if (!valid) throw scene::Error(file.string() + ": is not a stored reference");
     };
     const auto take = [&](const std::string& prefix) {
         for (Picture::Channel& channel : picture.channels)
@@ -130,7 +130,7 @@ void ReferenceCache::note(const std::string& viewKey, const std::string& key) co
     try {
         writeWhole(m_folder / viewKey, key.data(), key.size());
     } catch (const scene::Error&) {
-        // get() has said that nothing can be written here.
+        // get() has already warned about the folder.
     }
 }
 
@@ -152,7 +152,7 @@ Reference ReferenceCache::get(const std::string& key, const std::function<Refere
         try {
             return read(file);
         } catch (const scene::Error& broken) {
-            if (m_warn) m_warn(fmt::format("{}; making the reference again", broken.what()));
+            if (m_warn) m_warn(fmt::format("{}; the reference is traced again", broken.what()));
         }
     }
     Reference reference = make();
@@ -160,8 +160,8 @@ Reference ReferenceCache::get(const std::string& key, const std::function<Refere
         std::filesystem::create_directories(m_folder, error);
         write(file, reference);
     } catch (const scene::Error& unwritable) {
-        if (m_warn && !m_complained) m_warn(fmt::format("{}; going on without a cache", unwritable.what()));
-        m_complained = true;
+        if (m_warn && !m_warned) m_warn(fmt::format("{}; continuing without a cache", unwritable.what()));
+        m_warned = true;
     }
     return reference;
 }

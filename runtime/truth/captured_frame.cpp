@@ -1,4 +1,4 @@
-// Captures: NAME.json and NAME.capture.exr in, checked, and out again.
+// Reads, validates and writes captures: NAME.json and NAME.capture.exr.
 #include "truth/captured_frame.h"
 
 #include <algorithm>
@@ -34,11 +34,12 @@ glm::uvec2 pair(const JsonAt& at, uint64_t low) {
     return {uint32_t(at.at(size_t(0)).whole(low, 32768)), uint32_t(at.at(1).whole(low, 32768))};
 }
 
-bool choice(const JsonAt& root, const char* key, const char* usual, const char* other) {
+// True if the field is `other`; `standard` is the default.
+bool choice(const JsonAt& root, const char* key, const char* standard, const char* other) {
     const auto at = root.find(key);
     if (!at) return false;
     const std::string text = at->text();
-    if (text != usual && text != other) at->fail(fmt::format("must be \"{}\" or \"{}\", not \"{}\"", usual, other, text));
+    if (text != standard && text != other) at->fail(fmt::format("must be \"{}\" or \"{}\", not \"{}\"", standard, other, text));
     return text == other;
 }
 
@@ -56,7 +57,7 @@ shared::View viewOf(const CapturedFrame& frame, ao::DepthKind kind) {
     shared::View view{};
     const char* reason = "";
     if (ao::viewOf(lensOf(frame, kind), view, reason) != ao::Status::ok)
-        throw scene::Error(fmt::format("the frame's lens makes no sense: {}", reason));
+        throw scene::Error(fmt::format("the frame's projection is invalid: {}", reason));
     return view;
 }
 
@@ -115,7 +116,7 @@ void CapturedFrame::reconstructNormals() {
         for (uint32_t x = 0; x < size.x; ++x) {
             if (isSky(index(x, y))) continue;
             const glm::vec3 here = at(x, y);
-            // On each axis the side whose depth changes less: the other one may lie on another surface.
+            // On each axis the neighbour with the smaller change of depth: the other one may be on another surface.
             const auto slope = [&](bool horizontal) {
                 const uint32_t c = horizontal ? x : y, last = (horizontal ? size.x : size.y) - 1;
                 const glm::vec3 ahead = c < last ? (horizontal ? at(x + 1, y) : at(x, y + 1)) - here : glm::vec3(1e30f);
@@ -133,12 +134,13 @@ void CapturedFrame::reconstructNormals() {
 void CapturedFrame::check(const std::string& name) const {
     const auto fail = [&](const std::string& what) { throw scene::Error(scene::errorLine(name, "", what)); };
     const size_t count = size_t(size.x) * size.y;
-    if (count == 0 || 2 * guard.x >= size.x || 2 * guard.y >= size.y) fail(fmt::format("a guard band of {} x {} leaves nothing of {} x {} pixels", guard.x, guard.y, size.x, size.y));
+    if (count == 0 || 2 * guard.x >= size.x || 2 * guard.y >= size.y)
+        fail(fmt::format("a guard band of {} x {} leaves no visible pixel of {} x {}", guard.x, guard.y, size.x, size.y));
     if (depth.size() != count) fail(fmt::format("{} depths for {} x {} pixels", depth.size(), size.x, size.y));
     if (hasNormals() && normals.size() != count) fail(fmt::format("{} normals for {} x {} pixels", normals.size(), size.x, size.y));
     for (size_t i = 0; i < count; ++i) {
         const size_t x = i % size.x, y = i / size.x;
-        if (!std::isfinite(depth[i])) fail(fmt::format("Z is {} at pixel ({}, {}); write {} where nothing is hit", depth[i], x, y, skyDepth));
+        if (!std::isfinite(depth[i])) fail(fmt::format("Z is {} at pixel ({}, {}); write {} for sky", depth[i], x, y, skyDepth));
         if (depth[i] <= 0.0f) fail(fmt::format("Z is {} at pixel ({}, {}); linear depth is -z in metres, above 0", depth[i], x, y));
         if (!hasNormals() || isSky(i)) continue;
         const float length = glm::length(normals[i]);
@@ -190,7 +192,7 @@ CapturedFrame readCapture(const std::filesystem::path& path) {
         camera->fovY = fov;
         camera->nearPlane = near;
         if (camera->eye == camera->target) root.at("target").fail("must differ from eye");
-        if (camera->up == glm::vec3(0.0f)) root.at("up").fail("must not be zero");
+        if (camera->up == glm::vec3(0.0f)) root.at("up").fail("must not be the zero vector");
     }
     CapturedFrame frame = emptyFrame(visible, guard, fov, near, camera);
     const bool device = choice(root, "depth", "linear", "device");

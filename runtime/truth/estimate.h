@@ -1,4 +1,4 @@
-// A receiver's estimate while its rays come in: sums per sequence, mean and standard error. Private to truth.
+// The running estimate of a receiver: sums per sequence, mean and standard error. Private to truth.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace obscura::truth {
 
 static_assert(kBatch == shared::kSequences);
 
-using Sums = std::array<float, kBatch>;  // one a sequence
+using Sums = std::array<float, kBatch>;  // one per sequence
 
-// Mean over all rays, and its standard error from the scatter of the sequences' means: each is an unbiased estimate of its
-// own, so the scatter holds whatever stratification gains.
+// Mean over all rays, and its standard error from the scatter of the sequences' means. Each mean is an unbiased estimate, so the scatter
+// includes the gain from stratification.
 struct Estimate {
     float mean = 0.0f;
     float error = 0.0f;
@@ -31,7 +31,7 @@ inline Estimate estimate(const Sums& sums, uint32_t points) {
     return {float(mean * scale), float(std::sqrt(square / (kBatch - 1.0) / kBatch) * scale)};
 }
 
-// Points of each sequence: how many at least, at most, and after how many more an estimate is looked at again.
+// Points per sequence: minimum, maximum, and the step between two tests of the error.
 struct Schedule {
     uint32_t first, last, step = 4;
     float target;

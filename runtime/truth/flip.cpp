@@ -1,5 +1,5 @@
-// LDR-FLIP [Andersson 2020]: a colour pipeline (contrast-sensitivity filters, Hunt-adjusted CIELAB, HyAB distance) and a
-// feature pipeline (edges and points), joined as colour^(1 - feature). Equation numbers are the paper's.
+// LDR-FLIP [Andersson 2020]: a colour pipeline (contrast-sensitivity filters, Hunt-adjusted CIELAB, HyAB distance) and a feature pipeline
+// (edges and points), combined as colour^(1 - feature). Equation numbers are the paper's.
 #include "truth/flip.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ const glm::dmat3 kXyzFromRgb = glm::transpose(glm::dmat3(10135552.0 / 24577794.0
 const glm::dmat3 kRgbFromXyz = glm::inverse(kXyzFromRgb);
 const glm::dvec3 kWhite = kXyzFromRgb * glm::dvec3(1.0);
 
-// L*, a*, b* without the cube root: the opponent space the eye's filters are given in.
+// L*, a*, b* without the cube root: the opponent space of the contrast-sensitivity filters.
 glm::vec3 opponent(const glm::vec3& rgb) {
     const glm::dvec3 t = kXyzFromRgb * glm::dvec3(rgb) / kWhite;
     return {116.0 * t.y - 16.0, 500.0 * (t.x - t.y), 200.0 * (t.y - t.z)};
@@ -52,7 +52,7 @@ float hyab(const glm::vec3& a, const glm::vec3& b) {
 
 using Kernel = std::vector<float>;  // 2r + 1 taps
 
-// Convolution with a kernel that is a product; beyond the border its pixels repeat.
+// Separable convolution; pixels of the border are repeated outside.
 Plane filter(const Plane& in, const Kernel& alongX, const Kernel& alongY) {
     const auto pass = [](const Plane& source, const Kernel& kernel, bool horizontal) {
         Plane out(source.width, source.height);
@@ -79,7 +79,7 @@ struct Sensitivity {
 constexpr Sensitivity kSensitivity[3] = {{{1.0, 0.0}, {0.0047, 1e-5}}, {{1.0, 0.0}, {0.0053, 1e-5}}, {{34.1, 13.5}, {0.04, 0.025}}};
 constexpr double kWidest = 0.04;
 
-Plane perceived(const Plane& in, const Sensitivity& s, float pixelsPerDegree) {
+Plane contrastFiltered(const Plane& in, const Sensitivity& s, float pixelsPerDegree) {
     const int r = int(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * kPi * kPi)) * pixelsPerDegree));
     Kernel kernels[2];
     double weights[2], total = 0.0;
@@ -126,30 +126,30 @@ Plane features(const Plane& lightness, int order, float pixelsPerDegree) {
     return x;
 }
 
-struct Seen {
+struct Perceived {
     std::array<Plane, 3> opponent;
     std::vector<glm::vec3> lab;
     Plane edges, points;
 };
 
-Seen see(const std::array<Plane, 3>& rgb, float pixelsPerDegree) {
-    Seen seen;
+Perceived perceive(const std::array<Plane, 3>& rgb, float pixelsPerDegree) {
+    Perceived out;
     const uint32_t width = rgb[0].width, height = rgb[0].height;
-    for (Plane& plane : seen.opponent) plane = Plane(width, height);
+    for (Plane& plane : out.opponent) plane = Plane(width, height);
     Plane lightness(width, height);
     for (size_t i = 0; i < rgb[0].pixels(); ++i) {
         const glm::vec3 c = opponent(glm::clamp(glm::vec3(rgb[0].values[i], rgb[1].values[i], rgb[2].values[i]), 0.0f, 1.0f));
-        for (int k = 0; k < 3; ++k) seen.opponent[size_t(k)].values[i] = c[k];
+        for (int k = 0; k < 3; ++k) out.opponent[size_t(k)].values[i] = c[k];
         lightness.values[i] = (c.x + 16.0f) / 116.0f;
     }
     std::array<Plane, 3> filtered;
-    for (size_t k = 0; k < 3; ++k) filtered[k] = perceived(seen.opponent[k], kSensitivity[k], pixelsPerDegree);
-    seen.lab.resize(rgb[0].pixels());
-    for (size_t i = 0; i < seen.lab.size(); ++i)
-        seen.lab[i] = huntLab(glm::clamp(rgbOfOpponent({filtered[0].values[i], filtered[1].values[i], filtered[2].values[i]}), 0.0f, 1.0f));
-    seen.edges = features(lightness, 1, pixelsPerDegree);
-    seen.points = features(lightness, 2, pixelsPerDegree);
-    return seen;
+    for (size_t k = 0; k < 3; ++k) filtered[k] = contrastFiltered(out.opponent[k], kSensitivity[k], pixelsPerDegree);
+    out.lab.resize(rgb[0].pixels());
+    for (size_t i = 0; i < out.lab.size(); ++i)
+        out.lab[i] = huntLab(glm::clamp(rgbOfOpponent({filtered[0].values[i], filtered[1].values[i], filtered[2].values[i]}), 0.0f, 1.0f));
+    out.edges = features(lightness, 1, pixelsPerDegree);
+    out.points = features(lightness, 2, pixelsPerDegree);
+    return out;
 }
 
 }  // namespace
@@ -157,8 +157,8 @@ Seen see(const std::array<Plane, 3>& rgb, float pixelsPerDegree) {
 Plane flip(const std::array<Plane, 3>& reference, const std::array<Plane, 3>& test, float pixelsPerDegree) {
     assert(reference[0].pixels() == test[0].pixels() && reference[0].width == test[0].width);
     constexpr float kColorExponent = 0.7f, kFeatureExponent = 0.5f, kKnee = 0.4f, kKneeValue = 0.95f;
-    const Seen a = see(reference, pixelsPerDegree), b = see(test, pixelsPerDegree);
-    // The largest distance there is, between green and blue [eq. 5].
+    const Perceived a = perceive(reference, pixelsPerDegree), b = perceive(test, pixelsPerDegree);
+    // The largest possible distance, between green and blue [eq. 5].
     const float largest = std::pow(hyab(huntLab({0.0f, 1.0f, 0.0f}), huntLab({0.0f, 0.0f, 1.0f})), kColorExponent);
     const float knee = kKnee * largest;
     Plane out(reference[0].width, reference[0].height);

@@ -1,4 +1,4 @@
-// Errors in space, whole picture and by region.
+// Errors in space, of the whole image and by region.
 #include "truth/metrics.h"
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 namespace obscura::truth {
 namespace {
 
-constexpr float kJump = 0.02f;      // of the nearer depth
-constexpr int kReach = 8;           // px that halo and thin regions extend
-constexpr int kThin = 4;            // px: narrower is thin
+constexpr float kJump = 0.02f;      // depth discontinuity, fraction of the nearer depth
+constexpr int kReach = 8;           // px, extent of halo and thin regions
+constexpr int kThin = 4;            // px, thin surfaces are narrower
 constexpr float kBorder = 0.1f;     // of each side
 
 struct Maps {
     Plane picture, reference, adjusted;
     float gamma = 1.0f;
-    Plane ssim, flip;  // empty where pixels are scattered
+    Plane ssim, flip;  // empty with Regions::scattered
 };
 
 double rmseAt(const Plane& a, const Plane& r, const Mask& mask, double gamma) {
@@ -32,7 +32,7 @@ double rmseAt(const Plane& a, const Plane& r, const Mask& mask, double gamma) {
     return square;
 }
 
-// A coarse look over the octaves first, since the curve may have more than one dip, then a golden-section search.
+// A coarse search over the octaves, since the error can have several minima, then a golden-section search.
 float bestGamma(const Plane& a, const Plane& r, const Mask& mask) {
     constexpr double kWidest = 3.0, kStep = 0.25;  // log2
     double best = 0.0, least = rmseAt(a, r, mask, 1.0);
@@ -127,7 +127,7 @@ Maps mapsOf(const Plane& visibility, const Plane& reference, const Mask& valid, 
 
 bool jumps(float nearer, float farther) { return farther > nearer * (1.0f + kJump); }
 
-// Spreads from the far pixel of every jump, over neighbours that no jump separates: never onto the near side.
+// Flood fill from the far pixel of every discontinuity, over neighbours without a discontinuity: never onto the near side.
 Mask haloOf(const Plane& z, const Mask& valid) {
     const int width = int(z.width), height = int(z.height);
     std::vector<uint8_t> steps(z.pixels(), 0);
@@ -156,7 +156,7 @@ Mask haloOf(const Plane& z, const Mask& valid) {
     return mask;
 }
 
-// Extremes over [-before, after] along one axis, then the other.
+// Minimum or maximum over the window [-before, after] along one axis, then the other.
 template <class Better>
 Plane extreme(const Plane& in, int before, int after, const Better& better) {
     const auto pass = [&](const Plane& source, bool horizontal) {
@@ -174,7 +174,8 @@ Plane extreme(const Plane& in, int before, int after, const Better& better) {
     return pass(pass(in, true), false);
 }
 
-// A closing of the depth fills what is nearer and narrower than the window, on either axis.
+// A morphological closing of the depth removes surfaces that are nearer than their surroundings and narrower than the window on either
+// axis.
 Mask thinOf(const Plane& z, const Mask& valid) {
     const auto greater = [](float a, float b) { return a > b; };
     const auto less = [](float a, float b) { return a < b; };
@@ -259,7 +260,7 @@ Metrics compare(const Plane& visibility, const Plane& reference, const Mask& val
     return judge(mapsOf(visibility, reference, mask), mask);
 }
 
-// [Wang 2004], windows cut off at the border and normalized again.
+// [Wang 2004], with windows cut at the border and renormalized.
 Plane ssimMap(const Plane& a, const Plane& b) {
     constexpr int kRadius = 5;
     constexpr double kSigma = 1.5, kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;

@@ -1,4 +1,4 @@
-// OpenEXR in and out; the only file that knows tinyexr.
+// OpenEXR input and output; the only file that includes tinyexr.
 #include "truth/picture.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr uint64_t kLargestFile = uint64_t(4) << 30;
     throw scene::Error(scene::errorLine(file.string(), "", what));
 }
 
-// tinyexr's C structs, freed whatever happens.
+// RAII wrappers of tinyexr's C structs.
 struct Header {
     EXRHeader exr;
     Header() { InitEXRHeader(&exr); }
@@ -61,13 +61,13 @@ uint64_t littleEndian(const unsigned char* at, int bytes) {
     return value;
 }
 
-// Every block of scan lines must lie inside the file and say which lines it holds: what tinyexr would otherwise rebuild by
-// guessing, or read past the end of [OpenEXR file layout: offset table after the header, then y, size, data].
+// Checks that every block of scan lines is inside the file and has the right line number. tinyexr would reconstruct a bad offset table, or
+// read past the end [OpenEXR file layout: offset table after the header, then y, size, data].
 void checkBlocks(const std::filesystem::path& file, const std::vector<unsigned char>& bytes, const EXRHeader& header, int height) {
     const auto& type = header.compression_type;
     const int lines = type == TINYEXR_COMPRESSIONTYPE_ZIP ? 16 : type == TINYEXR_COMPRESSIONTYPE_PIZ ? 32 : 1;
     const size_t blocks = size_t(height + lines - 1) / size_t(lines);
-    const size_t table = header.header_len + 8;  // behind magic number and version
+    const size_t table = header.header_len + 8;  // 8: magic number and version
     const char* truncated = "is truncated; write it again";
     if (table + blocks * 8 > bytes.size()) fail(file, truncated);
     for (size_t i = 0; i < blocks; ++i) {
@@ -94,7 +94,7 @@ Plane Picture::plane(std::string_view name) const {
     if (!channel) {
         std::string have;
         for (const Channel& c : channels) have += (have.empty() ? "" : ", ") + c.name;
-        throw scene::Error(fmt::format("no channel \"{}\" in the picture; there are {}", name, have.empty() ? "none" : have));
+        throw scene::Error(fmt::format("no channel \"{}\" in the image; there are {}", name, have.empty() ? "none" : have));
     }
     Plane plane(width, height);
     plane.values = channel->values;
@@ -114,7 +114,7 @@ Picture readExr(const std::filesystem::path& file, std::initializer_list<std::st
     const std::vector<unsigned char> bytes = readBytes(file);
     EXRVersion version{};
     if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS) fail(file, "is not an OpenEXR file");
-    if (version.multipart || version.non_image) fail(file, "has several parts or deep data; save it as a single flat part");
+    if (version.multipart || version.non_image) fail(file, "is multipart or has deep data; save it as a single flat part");
     if (version.tiled) fail(file, "is tiled; save it with scan lines");
 
     Header header;
@@ -149,9 +149,9 @@ Picture readExr(const std::filesystem::path& file, std::initializer_list<std::st
     checkBlocks(file, bytes, header.exr, int(height));
 
     Image image;
-    image.exr.num_channels = header.exr.num_channels;  // how many planes tinyexr frees when it fails
+    image.exr.num_channels = header.exr.num_channels;  // number of planes that tinyexr frees on failure
     if (LoadEXRImageFromMemory(&image.exr, &header.exr, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
-        InitEXRImage(&image.exr);  // tinyexr has freed its planes already and left the pointers
+        InitEXRImage(&image.exr);  // clears pointers to planes that tinyexr has already freed
         fail(file, fmt::format("is damaged or truncated ({}); write it again", takeMessage(message)));
     }
     if (image.exr.width != width || image.exr.height != height || !image.exr.images) fail(file, "is damaged; write it again");
@@ -167,8 +167,8 @@ Picture readExr(const std::filesystem::path& file, std::initializer_list<std::st
 }
 
 void writeExr(const std::filesystem::path& file, const Picture& picture) {
-    if (picture.channels.empty() || picture.width == 0 || picture.height == 0) fail(file, "nothing to write: the picture is empty");
-    // Readers may count on channels in alphabetical order.
+    if (picture.channels.empty() || picture.width == 0 || picture.height == 0) fail(file, "nothing to write: the image is empty");
+    // OpenEXR stores channels in alphabetical order.
     std::vector<const Picture::Channel*> sorted;
     for (const Picture::Channel& channel : picture.channels) sorted.push_back(&channel);
     std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
@@ -183,7 +183,7 @@ void writeExr(const std::filesystem::path& file, const Picture& picture) {
         sorted[c]->name.copy(infos[c].name, sizeof infos[c].name - 1);
         planes[c] = reinterpret_cast<unsigned char*>(const_cast<float*>(sorted[c]->values.data()));  // tinyexr only reads
     }
-    EXRHeader header;  // borrows the arrays above, so it is not freed
+    EXRHeader header;  // points to the arrays above, hence not freed
     InitEXRHeader(&header);
     header.num_channels = int(count);
     header.channels = infos.data();
@@ -214,7 +214,7 @@ void writeWhole(const std::filesystem::path& file, const void* bytes, size_t cou
         out.close();
         if (!out) {
             std::filesystem::remove(temporary, error);
-            fail(file, "cannot be written; check that its folder exists, is yours and has room");
+            fail(file, "cannot be written; check that its folder exists, is writable and has free space");
         }
     }
     std::filesystem::rename(temporary, file, error);

@@ -1,4 +1,4 @@
-// Float pictures in memory and as OpenEXR files. Rows run top to bottom.
+// Float images in memory and as OpenEXR files. Rows top to bottom.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace obscura::truth {
 
-// One number a pixel.
+// One float per pixel.
 struct Plane {
     uint32_t width = 0, height = 0;
     std::vector<float> values;  // width * height
@@ -33,21 +33,19 @@ struct Picture {
     uint32_t width = 0, height = 0;
     std::vector<Channel> channels;
 
-    const Channel* find(std::string_view name) const;  // null when there is none
-    Plane plane(std::string_view name) const;          // throws scene::Error that lists the channels there are
-    void add(std::string name, Plane plane);           // asserts the size; the first one decides it
+    const Channel* find(std::string_view name) const;  // null if missing
+    Plane plane(std::string_view name) const;          // throws scene::Error, which lists the channels, if missing
+    void add(std::string name, Plane plane);           // asserts that the size is that of the first plane
 };
 
-// Reads a single-part file of scan lines; half and float channels become float. With `names`, exactly those are
-// asked for and given, in that order. Throws scene::Error, one line: file, what is wrong (not there, no EXR, truncated,
-// too large, channel missing), what to do.
+// Reads a single-part scan-line file; half and float channels become float. With `names`, returns these channels in this order, else all.
+// Throws scene::Error, one line: file, what is wrong (missing, not an EXR, truncated, too large, channel missing), what would be right.
 Picture readExr(const std::filesystem::path& file, std::initializer_list<std::string_view> names = {});
 
-// float32, ZIP-compressed, to a temporary name and then renamed: on failure (scene::Error) nothing is left behind and an
-// older file stays as it was.
+// float32, ZIP-compressed. Written to a temporary name, then renamed: on failure (scene::Error) an older file is unchanged.
 void writeExr(const std::filesystem::path& file, const Picture& picture);
 
-// Any file in the same way.
+// Writes bytes in the same way.
 void writeWhole(const std::filesystem::path& file, const void* bytes, size_t count);
 
 }  // namespace obscura::truth

@@ -1,4 +1,4 @@
-// What the two references share: falloffs as callables, summaries.
+// Shared by both references: falloffs as functions, summaries of errors.
 #include "truth/reference.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace obscura::truth {
 namespace {
 
-// ln 65536: what an exponential leaves out beyond is smaller than any error a reference is asked for.
+// ln 65536: the rest of an exponential falloff is smaller than any error that a reference resolves.
 constexpr float kExponentialReach = 11.0903549f;
 
 constexpr const char* kKinds[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};

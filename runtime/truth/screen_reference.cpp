@@ -1,4 +1,4 @@
-// Deals receivers to the marching pass, adds up what comes back, and stops where the error is small enough.
+// Dispatches receivers to the marching pass, accumulates its sums, and drops receivers whose error is small enough.
 #include "truth/screen_reference.h"
 
 #include <algorithm>
@@ -9,18 +9,18 @@
 
 #include <fmt/format.h>
 
-#include "graph/graph.h"
+#include "graph/executor.h"
 #include "truth/estimate.h"
 
 namespace obscura::truth {
 namespace {
 
-// Receivers a dispatch and points of each sequence a dispatch: bounded memory, and short enough for a display's watchdog.
+// Receivers, and points per sequence, of one dispatch: limits memory, and the time of a dispatch on devices with a watchdog.
 constexpr uint32_t kReceivers = 1u << 15;
 constexpr uint32_t kPoints = 4;
 constexpr uint32_t kTableSize = 2048;
 
-// Reaches first, then kTableSize samples of each falloff over [0, reach]: any callable fits into a shader that way.
+// The reaches, then kTableSize samples of each falloff over [0, reach]: tables for the shader.
 std::vector<float> tabulate(std::span<const RayFalloff> falloffs) {
     std::vector<float> table;
     for (const RayFalloff& falloff : falloffs) table.push_back(falloff.reach);
@@ -30,9 +30,9 @@ std::vector<float> tabulate(std::span<const RayFalloff> falloffs) {
 }
 
 struct Pending {
-    uint32_t pixel;                    // visible raster
+    uint32_t pixel;                    // index in the visible part
     shared::MarchReceiver receiver;
-    std::vector<Sums> sums;            // one a falloff
+    std::vector<Sums> sums;            // one per falloff
 };
 
 std::vector<Pending> receiversOf(const CapturedFrame& frame, const ScreenOptions& options, size_t falloffs) {
@@ -63,10 +63,11 @@ struct ScreenReference::Impl {
     gpu::Device& device;
     gpu::Program march;
     graph::Graph graph;
+    graph::Executor executor;
     gpu::Image depth;
     gpu::Buffer table, sums;
 
-    explicit Impl(gpu::Device& d) : device(d), graph(d) { graph.setTiming(false); }
+    explicit Impl(gpu::Device& d) : device(d), graph(d), executor(d) { executor.setTiming(false); }
 
     void expect(gpu::Status status, const char* doing) const {
         if (status != gpu::Status::ok) throw scene::Error(fmt::format("the screen reference failed while {}: {}", doing, gpu::name(status)));
@@ -75,14 +76,17 @@ struct ScreenReference::Impl {
     void upload(const CapturedFrame& frame, const std::vector<float>& tables, size_t sumBytes) {
         gpu::ImageDesc desc{VK_FORMAT_R32_SFLOAT, frame.size.x, frame.size.y};
         desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-        if (!depth || !(depth.desc() == desc)) expect(gpu::Image::create(device, desc, "truth depth", depth), "making its depth image");
+        if (!depth || !(depth.desc() == desc)) expect(gpu::Image::create(device, desc, "truth depth", depth), "creating its depth image");
         expect(gpu::upload(device, depth, std::as_bytes(std::span(frame.depth)), VK_IMAGE_LAYOUT_GENERAL), "uploading the depth");
         const uint64_t tableBytes = tables.size() * sizeof(float);
         if (!table || table.bytes() < tableBytes)
-            expect(gpu::Buffer::create(device, tableBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "truth falloffs", table), "making its tables");
+            expect(gpu::Buffer::create(device, tableBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                       gpu::Memory::device, "truth falloffs", table),
+                   "creating its tables");
         expect(gpu::upload(device, table, std::as_bytes(std::span(tables))), "uploading its tables");
         if (!sums || sums.bytes() < sumBytes)
-            expect(gpu::Buffer::create(device, sumBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback, "truth sums", sums), "making its result buffer");
+            expect(gpu::Buffer::create(device, sumBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback, "truth sums", sums),
+                   "creating its result buffer");
     }
 
     void run(const shared::View& view, std::span<const shared::MarchReceiver> receivers, const shared::MarchConstants& constants) {
@@ -102,13 +106,13 @@ struct ScreenReference::Impl {
             .constants(constants).keep().dispatch(uint32_t(receivers.size()) * kBatch);
         graph.pass("truth.readback").use(result, graph::Access::hostRead).keep().record([](const graph::PassContext&) {});
         gpu::Status recorded = gpu::Status::ok;
-        expect(device.runNow([&](VkCommandBuffer cmd) { recorded = graph.execute(cmd); }), "marching rays");
+        expect(device.runNow([&](VkCommandBuffer cmd) { recorded = executor.execute(graph, cmd); }), "marching rays");
         expect(recorded, "recording its pass");
     }
 };
 
 ScreenReference::ScreenReference(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_impl(std::make_unique<Impl>(device)) {
-    m_impl->expect(gpu::Program::compute(device, shaders, "truth/march.comp", {}, m_impl->march), "making its pipeline");
+    m_impl->expect(gpu::Program::compute(device, shaders, "truth/march.comp", {}, m_impl->march), "creating its pipeline");
 }
 
 ScreenReference::~ScreenReference() {
@@ -116,12 +120,13 @@ ScreenReference::~ScreenReference() {
 }
 
 Reference ScreenReference::trace(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const ScreenOptions& options) {
-    if (!frame.hasNormals()) throw scene::Error("the frame has no normals to cast rays about; capture them, or reconstruct them from depth");
+    if (!frame.hasNormals()) throw scene::Error("the frame has no normals; capture them, or reconstruct them from depth");
     if (falloffs.empty() || falloffs.size() > kMaxFalloffs) throw scene::Error(fmt::format("{} falloffs; the screen reference takes 1 to {} at a time", falloffs.size(), kMaxFalloffs));
-    if (!(options.thickness > 0.0f)) throw scene::Error(fmt::format("a thickness of {} m lets every ray through; give more than 0", options.thickness));
+    if (!(options.thickness > 0.0f))
+        throw scene::Error(fmt::format("the thickness is {} m; it must be above 0", options.thickness));
     float length = 0.0f;
     for (const RayFalloff& falloff : falloffs) length = std::max(length, falloff.reach);
-    if (!std::isfinite(length)) throw scene::Error("the screen reference needs falloffs that end somewhere");
+    if (!std::isfinite(length)) throw scene::Error("the screen reference needs falloffs of finite reach; use the world reference");
     Impl& impl = *m_impl;
     if (frame.size.x > impl.device.caps().maxImageSize || frame.size.y > impl.device.caps().maxImageSize)
         throw scene::Error(fmt::format("{} x {} pixels are more than this device's {} a side", frame.size.x, frame.size.y, impl.device.caps().maxImageSize));
@@ -136,8 +141,8 @@ Reference ScreenReference::trace(const CapturedFrame& frame, std::span<const Ray
     impl.upload(frame, tabulate(falloffs), std::max<size_t>(std::min<size_t>(all.size(), kReceivers), 1) * perReceiver * sizeof(float));
 
     const shared::View view = frame.view();
-    const auto tell = [&](float done) {
-        if (options.progress && !options.progress(done)) throw scene::Error("the reference was stopped before it was done");
+    const auto reportProgress = [&](float done) {
+        if (options.progress && !options.progress(done)) throw scene::Error("the reference was cancelled");
     };
     std::vector<shared::MarchReceiver> batch;
     for (size_t first = 0; first < all.size(); first += kReceivers) {
@@ -145,7 +150,7 @@ Reference ScreenReference::trace(const CapturedFrame& frame, std::span<const Ray
         const size_t end = std::min(all.size(), first + kReceivers);
         for (size_t i = first; i < end; ++i) active.push_back(&all[i]);
         for (uint32_t point = 0; !active.empty() && point < schedule.last;) {
-            // The fewest points until somebody may stop, in dispatches of bounded length.
+            // Points until the next test of the error, in dispatches of at most kPoints.
             const uint32_t goal = point < schedule.first ? schedule.first : std::min(point + schedule.step, schedule.last);
             const uint32_t points = std::min(goal - point, kPoints);
             batch.clear();
@@ -172,8 +177,8 @@ Reference ScreenReference::trace(const CapturedFrame& frame, std::span<const Ray
                 out.rays.values[pending->pixel] = float(point * kBatch);
                 return worst <= schedule.target;
             });
-            // Receivers still active may finish at any point; the rounds left are the one sure measure.
-            tell((float(first) + float(end - first) * float(point) / float(schedule.last)) / float(all.size()));
+            // By points, not by receivers: active receivers can finish at any point.
+            reportProgress((float(first) + float(end - first) * float(point) / float(schedule.last)) / float(all.size()));
         }
         for (size_t i = first; i < end; ++i) out.totalRays += uint64_t(out.rays.values[all[i].pixel]);
     }

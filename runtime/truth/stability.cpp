@@ -9,10 +9,10 @@ namespace obscura::truth {
 
 namespace {
 
-constexpr float kDepthTolerance = 0.02f;   // of the distance, where nothing moved
-constexpr float kPlaneTolerance = 0.05f;   // of a pixel's width on the surface
+constexpr float kDepthTolerance = 0.02f;   // fraction of the depth, for stayed()
+constexpr float kPlaneTolerance = 0.05f;   // fraction of a pixel's width on the surface
 constexpr float kNormalTolerance = 0.906f; // cos 25 degrees
-constexpr float kChanged = 0.1f;           // of visibility: what an event did
+constexpr float kChanged = 0.1f;           // visibility, for lag()
 
 float bilinear(const Plane& plane, glm::vec2 at) {
     const glm::vec2 corner = glm::floor(at), part = at - corner;
@@ -26,7 +26,8 @@ float bilinear(const Plane& plane, glm::vec2 at) {
 void expectPlanes(std::initializer_list<const Plane*> planes, uint32_t width, uint32_t height) {
     for (const Plane* plane : planes)
         if (plane->width != width || plane->height != height)
-            throw scene::Error(fmt::format("stability: a picture of {} x {} px among those of {} x {}", plane->width, plane->height, width, height));
+            throw scene::Error(
+                fmt::format("stability: an image is {} x {} px, the others {} x {}", plane->width, plane->height, width, height));
 }
 
 }  // namespace
@@ -42,9 +43,9 @@ float Correspondence::share() const {
 
 Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before, std::span<const glm::vec2> motion) {
     if (now.size != before.size || now.guard != before.guard || motion.size() != now.depth.size())
-        throw scene::Error("stability: two frames and their motion must have one size and guard band");
+        throw scene::Error("stability: both frames and the motion must have the same size and guard band");
     if (!now.camera || !before.camera || !now.hasNormals() || !before.hasNormals())
-        throw scene::Error("stability: frames need cameras and normals to be followed through the world");
+        throw scene::Error("stability: both frames must have a camera and normals");
     const glm::mat4 previousFromEye = before.camera->view() * now.worldFromEye();
     const glm::uvec2 visible = now.visible();
     const shared::View lens = now.view(), lensBefore = before.view();
@@ -63,23 +64,23 @@ Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before,
             way.at[target] = at;
             const glm::vec3 expected(previousFromEye * glm::vec4(onRay(lens, glm::vec2(x, y) + guard, now.depth[source]), 1.0f));
             const glm::vec3 facing = glm::mat3(previousFromEye) * now.normals[source];
-            // A surface that moves is not where the camera alone would have it: its plane is laid through where its pixel was.
+            // For a moving surface, camera motion alone does not give last frame's position: the plane passes through the pixel at `at`.
             const glm::vec3 anchor = onRay(lensBefore, at + guard, -expected.z);
             const float tolerance = kPlaneTolerance * (lensBefore.orthographic > 0.5f ? 1.0f : -expected.z) / lensBefore.pixelsPerMetre;
-            int agree = 0, asked = 0;
+            int agree = 0, tested = 0;
             const glm::ivec2 corner(glm::floor(at));
             const glm::vec2 part = at - glm::floor(at);
             for (int k = 0; k < 4; ++k) {
                 const glm::ivec2 q = corner + glm::ivec2(k & 1, k >> 1);
-                if ((k & 1 ? part.x : 1.0f - part.x) * (k >> 1 ? part.y : 1.0f - part.y) < 1e-3f) continue;  // has no say
-                ++asked;
+                if ((k & 1 ? part.x : 1.0f - part.x) * (k >> 1 ? part.y : 1.0f - part.y) < 1e-3f) continue;  // negligible weight
+                ++tested;
                 if (q.x < 0 || q.y < 0 || q.x >= int(visible.x) || q.y >= int(visible.y)) continue;
                 const size_t there = before.visibleIndex(uint32_t(q.x), uint32_t(q.y));
                 if (before.isSky(there)) continue;
                 const float off = std::fabs(glm::dot(onRay(lensBefore, glm::vec2(q) + guard, before.depth[there]) - anchor, facing));
                 agree += off <= tolerance && glm::dot(before.normals[there], facing) >= kNormalTolerance;
             }
-            way.same[target] = agree == asked;
+            way.same[target] = agree == tested;
             way.disoccluded[target] = agree == 0;
         }
     return way;
@@ -87,7 +88,7 @@ Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before,
 
 Change change(const Correspondence& way, const Plane& now, const Plane& before, const Traced& referenceNow, const Traced& referenceBefore) {
     expectPlanes({&now, &before, &referenceNow.visibility, &referenceBefore.visibility}, way.width, way.height);
-    // Variance of a pixel of the past: four independent ones, weighted.
+    // Variance of a bilinear sample of last frame: four independent pixels, weighted.
     const auto variance = [](const Traced& traced, glm::vec2 at) {
         if (traced.error.values.empty()) return 0.0;
         const glm::vec2 corner = glm::floor(at), part = at - corner;
@@ -142,7 +143,7 @@ void StaticNoise::add(const Plane& visibility) {
         m_mean.assign(visibility.pixels(), 0.0);
         m_squares.assign(visibility.pixels(), 0.0);
     }
-    if (m_mean.size() != visibility.pixels()) throw scene::Error("stability: pictures of different sizes");
+    if (m_mean.size() != visibility.pixels()) throw scene::Error("stability: images of different sizes");
     ++m_frames;
     for (size_t i = 0; i < m_mean.size(); ++i) {  // [Welford 1962]
         const double value = visibility.values[i], step = value - m_mean[i];

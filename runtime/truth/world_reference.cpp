@@ -1,4 +1,4 @@
-// Rays against triangles, traced with Embree 3 or 4; the only file that includes Embree.
+// The world reference, by Embree 3 or 4; the only file that includes Embree.
 #include "truth/world_reference.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Embree 3 and 4 differ in how a query is told that its rays are incoherent: 3 takes a context before the ray, 4 takes arguments
-// behind it, of a type of its own for occlusion.
+// Ray queries. Embree 3 takes the flag for incoherent rays in a context before the ray, Embree 4 in arguments after it, with another type
+// for occlusion.
 class Queries {
 public:
     explicit Queries(RTCScene scene) : m_scene(scene) {
@@ -63,7 +63,7 @@ private:
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// Embree asks this of every hit on a masked primitive.
+// Filter of hits on masked primitives: rejects hits on transparent texels.
 void passMaskedTexels(const RTCFilterFunctionNArguments* args) {
     const auto& mask = *static_cast<const AlphaMask*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i)
@@ -71,7 +71,7 @@ void passMaskedTexels(const RTCFilterFunctionNArguments* args) {
             args->valid[i] = 0;
 }
 
-// A right-handed frame about n [Duff 2017].
+// A right-handed orthonormal basis with z = n [Duff 2017].
 struct Basis {
     glm::vec3 x, y, z;
     explicit Basis(const glm::vec3& n) : z(n) {
@@ -85,7 +85,7 @@ struct Basis {
     }
 };
 
-// The distances of the first hits of kBatch rays, infinity where a ray escapes.
+// Distances of the first hits of kBatch rays; infinity for no hit.
 using Distances = std::array<float, kBatch>;
 constexpr float kEscaped = std::numeric_limits<float>::infinity();
 
@@ -184,9 +184,9 @@ struct WorldReference::Impl {
         triangles += primitive.indices.size() / 3;
     }
 
-    // Everything one receiver needs; returns rays cast.
-    uint32_t receive(Caster& caster, const Receiver& receiver, size_t index, std::span<const RayFalloff> falloffs, const WorldOptions& options,
-                     const Schedule& schedule, std::vector<Sums>& sums, Reference& out) const {
+    // Traces one receiver; returns the number of rays.
+    uint32_t traceReceiver(Caster& caster, const Receiver& receiver, size_t index, std::span<const RayFalloff> falloffs,
+                           const WorldOptions& options, const Schedule& schedule, std::vector<Sums>& sums, Reference& out) const {
         const Basis basis(receiver.normal);
         const glm::vec3 a = glm::abs(receiver.position);
         const float offset = std::max(options.offset * receiver.scale, 1e-6f * std::max(a.x, std::max(a.y, a.z)));
@@ -222,9 +222,9 @@ WorldReference::WorldReference(std::span<const scene::PosedPrimitive> primitives
     const Clock::time_point start = Clock::now();
     Impl& impl = *m_impl;
     impl.device = rtcNewDevice(nullptr);
-    if (!impl.device) throw scene::Error("Embree cannot start on this processor");
+    if (!impl.device) throw scene::Error("Embree cannot create a device on this processor");
     impl.scene = rtcNewScene(impl.device);
-    rtcSetSceneFlags(impl.scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
+    rtcSetSceneFlags(impl.scene, RTC_SCENE_FLAG_ROBUST);  // no rays between adjacent triangles
     rtcSetSceneBuildQuality(impl.scene, RTC_BUILD_QUALITY_HIGH);
     for (const scene::PosedPrimitive& posed : primitives) {
         const scene::AlphaMode mode = posed.model->materials[size_t(posed.primitive->material)].alphaMode;
@@ -233,7 +233,7 @@ WorldReference::WorldReference(std::span<const scene::PosedPrimitive> primitives
         impl.add(posed, masked);
     }
     rtcCommitScene(impl.scene);
-    impl.checkEmbree("building its tree");
+    impl.checkEmbree("building its acceleration structure");
     impl.buildSeconds = secondsSince(start);
 }
 
@@ -243,7 +243,7 @@ size_t WorldReference::triangles() const { return m_impl->triangles; }
 double WorldReference::buildSeconds() const { return m_impl->buildSeconds; }
 
 Reference WorldReference::trace(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const WorldOptions& options) const {
-    if (!frame.hasNormals()) throw scene::Error("the frame has no normals to cast rays about; capture them, or reconstruct them from depth");
+    if (!frame.hasNormals()) throw scene::Error("the frame has no normals; capture them, or reconstruct them from depth");
     const glm::mat4 worldFromEye = frame.worldFromEye();
     const glm::mat3 rotation(worldFromEye);
     const glm::uvec2 part = frame.visible();
@@ -262,7 +262,7 @@ Reference WorldReference::trace(const CapturedFrame& frame, std::span<const RayF
 }
 
 Reference WorldReference::trace(std::span<const Receiver> receivers, std::span<const RayFalloff> falloffs, const WorldOptions& options, uint32_t width) const {
-    if (falloffs.empty()) throw scene::Error("no falloff to cast rays with");
+    if (falloffs.empty()) throw scene::Error("the world reference needs at least one falloff");
     if (width == 0) width = uint32_t(receivers.size());
     const Clock::time_point start = Clock::now();
     Reference out = emptyReference(width, width ? uint32_t((receivers.size() + width - 1) / width) : 0, falloffs);
@@ -274,30 +274,31 @@ Reference WorldReference::trace(std::span<const Receiver> receivers, std::span<c
         length = std::max(length, falloff.reach);
     }
 
-    // Receivers are dealt in blocks; each writes its own pixels and depends on nothing else, so any number of threads gives
-    // the same picture.
+    // Threads take receivers in blocks. A receiver writes its own pixel and is independent of others, so the result does not depend on the
+    // number of threads.
     constexpr size_t kBlock = 64;
     const size_t blocks = (receivers.size() + kBlock - 1) / kBlock;
     std::atomic<size_t> nextBlock{0}, finished{0};
     std::atomic<uint64_t> rays{0};
     std::atomic<bool> stop{false};
-    const auto work = [&](bool tells) {
+    const auto work = [&](bool reportsProgress) {
         Caster caster(m_impl->scene, length, anyHit, options.packets);
         std::vector<Sums> sums(falloffs.size());
         for (size_t block; !stop && (block = nextBlock++) < blocks;) {
             uint64_t cast = 0;
             const size_t end = std::min(receivers.size(), (block + 1) * kBlock);
             for (size_t i = block * kBlock; i < end; ++i)
-                if (receivers[i].normal != glm::vec3(0.0f)) cast += m_impl->receive(caster, receivers[i], i, falloffs, options, schedule, sums, out);
+                if (receivers[i].normal != glm::vec3(0.0f))
+                    cast += m_impl->traceReceiver(caster, receivers[i], i, falloffs, options, schedule, sums, out);
             rays += cast;
             const size_t done = ++finished;
-            if (tells && options.progress && !options.progress(float(done) / float(blocks))) stop = true;
+            if (reportsProgress && options.progress && !options.progress(float(done) / float(blocks))) stop = true;
         }
     };
     const size_t wanted = options.threads ? options.threads : std::max(std::thread::hardware_concurrency(), 1u);
     {
         std::vector<std::jthread> helpers;
-        // A throwing progress callback must not leave helpers running on what is being destroyed.
+        // If progress() throws, the helper threads must stop before the objects that they use are destroyed.
         struct StopUnlessDone {
             std::atomic<bool>& stop;
             bool done = false;
@@ -307,7 +308,7 @@ Reference WorldReference::trace(std::span<const Receiver> receivers, std::span<c
         work(true);
         guard.done = true;
     }
-    if (stop) throw scene::Error("the reference was stopped before it was done");
+    if (stop) throw scene::Error("the reference was cancelled");
     if (options.progress) options.progress(1.0f);
     out.totalRays = rays;
     out.seconds = secondsSince(start);

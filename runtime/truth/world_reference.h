@@ -1,5 +1,5 @@
-// The world reference: rays against the triangles themselves, traced on the CPU with Embree. It knows nothing of the
-// screen but the receivers, so it judges whether a picture is good.
+// The world reference: rays against the scene's triangles, traced on the CPU with Embree. Only the receivers come from the screen, so it
+// measures the error of an image.
 #pragma once
 
 #include <memory>
@@ -12,16 +12,16 @@
 namespace obscura::truth {
 
 struct WorldGeometry {
-    bool skipMasked = false;   // leave alpha-masked primitives out (the stored references of real scenes do)
-    bool skipBlended = true;   // leave alpha-blended primitives out, as the G-buffer does
+    bool skipMasked = false;   // no alpha-masked primitives (as in the stored references of real scenes)
+    bool skipBlended = true;   // no alpha-blended primitives (as in the G-buffer)
 };
 
 struct WorldOptions : RayOptions {
-    uint32_t threads = 0;      // 0: as many as the machine has. The result does not depend on it, to the bit.
-    bool packets = true;       // eight rays at a time; single rays give the same picture but for rounding
-    // Rays start this far along the normal and as far towards the camera, times the distance to it (metres at 1 m): enough for
-    // a float position, too little to see. Nothing lies between a visible point and the camera, so a point in the corner of
-    // two walls comes free of both.
+    uint32_t threads = 0;      // 0: one per logical processor. The result is the same to the bit for any number
+    bool packets = true;       // packets of 8 rays; single rays give the same result up to rounding
+    // Rays start at the receiver plus this fraction of the camera distance along the normal and towards the camera: more than the rounding
+    // of a float position, less than visible. Since nothing is between a visible point and the camera, a point in the corner of two walls
+    // is moved off both.
     float offset = 1e-4f;
 };
 
@@ -30,20 +30,20 @@ public:
     struct Receiver {
         glm::vec3 position;    // world, m
         glm::vec3 normal;      // world, unit; zero: no receiver (sky)
-        float scale = 1.0f;    // m; the offset is scaled by it: distance to the camera
-        glm::vec3 towards{0};  // world: unit vector to the camera; zero: none looks
+        float scale = 1.0f;    // m, distance to the camera; scales the offset
+        glm::vec3 towards{0};  // world, unit vector to the camera; zero: no camera
     };
 
-    // Triangles of the posed primitives, both sides. Masked texels let rays through (texture alpha x factor x vertex alpha
-    // against the cutoff). The models must outlive this object; the positions are copied.
-    // Throws scene::Error when Embree refuses or a position is not finite (names the model and node).
+    // Triangles of the posed primitives, two-sided. Rays pass masked texels (texture alpha x factor x vertex alpha below the cutoff). The
+    // models must outlive this object; the positions are copied. Throws scene::Error if Embree fails or a position is not finite (with
+    // model and node).
     WorldReference(std::span<const scene::PosedPrimitive> primitives, const WorldGeometry& geometry = {});
     ~WorldReference();
     WorldReference(WorldReference&&) noexcept;
 
-    // The visible part of a frame. Throws scene::Error when the frame has no normals or progress said stop.
+    // The visible part of a frame. Throws scene::Error if the frame has no normals or progress() cancels.
     Reference trace(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const WorldOptions& options = {}) const;
-    // Any receivers: the planes are receivers.size() x 1, or width pixels wide when given (receivers row by row).
+    // Any receivers. The planes are `width` pixels wide, receivers row by row; 0: one row.
     Reference trace(std::span<const Receiver> receivers, std::span<const RayFalloff> falloffs, const WorldOptions& options = {},
                     uint32_t width = 0) const;
 

@@ -6,7 +6,7 @@
 namespace obscura::voxel {
 namespace {
 
-constexpr int kBias = kMostCell / kBrickSide;  // 21 bits an axis
+constexpr int kBias = kMostCell / kBrickSide;  // makes places positive: 21 bits per axis
 
 uint64_t keyOf(const glm::ivec3& place) {
     return uint64_t(place.x + kBias) << 42 | uint64_t(place.y + kBias) << 21 | uint64_t(place.z + kBias);
@@ -75,7 +75,7 @@ void BrickSet::merge(const BrickSet& other) {
 }
 
 void BrickSet::clear() {
-    // What few bricks there are frees its slots one by one: a large set that became small stays cheap to clear.
+    // With few bricks in a large table, only their slots are cleared.
     if (m_slots.size() > 8 * m_keys.size()) {
         for (size_t i = m_keys.size(); i-- > 0;) m_slots[slotOf(m_keys[i])] = 0;
     } else {

@@ -1,7 +1,6 @@
-// Cells and the bricks that hold them. The world is cut into cubes of one size; cell c's centre is at c x cellSize metres on each
-// axis, as OpenVDB has it, so that a floor at height 0 runs through the middle of cells and not between two layers of them. A set
-// cell holds some surface. Eight cells a side are a brick: 64 bytes, bit for bit an OpenVDB mask leaf and
-// bit for bit what the GPU reads.
+// Cells and bricks. The centre of cell c is at c * cellSize metres on each axis, as in OpenVDB: a floor at height 0 runs through the middle
+// of a layer of cells and not between two layers. A set cell touches a surface. A brick is 8 x 8 x 8 cells in 64 bytes, with the bit order
+// of an OpenVDB mask leaf, which is also what the GPU reads.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@
 namespace obscura::voxel {
 
 inline constexpr int kBrickSide = 8;
-inline constexpr int kMostCell = 1 << 23;  // cells lie in [-kMostCell, kMostCell): a brick's place then packs into 63 bits
+inline constexpr int kMostCell = 1 << 23;  // cells are in [-kMostCell, kMostCell): a brick's coordinates then pack into 63 bits
 
 struct Brick {
     std::array<uint64_t, 8> words{};  // word x, bit 8 y + z
@@ -30,11 +29,11 @@ static_assert(sizeof(Brick) == 64);
 
 inline glm::ivec3 brickOf(const glm::ivec3& cell) { return {cell.x >> 3, cell.y >> 3, cell.z >> 3}; }
 
-// Bricks by place, in the order they were first touched. Grows by doubling; clear() keeps the memory, so that a set that is
-// refilled every frame allocates nothing.
+// A hash map of bricks by place (cell coordinates / 8), in the order of insertion. clear() keeps the memory, so that a set that is refilled
+// every frame does not allocate.
 class BrickSet {
 public:
-    Brick& at(const glm::ivec3& place);  // an empty one when there was none; valid until the next at()
+    Brick& at(const glm::ivec3& place);  // inserted empty if missing; valid until the next at()
     const Brick* find(const glm::ivec3& place) const;
     void set(const glm::ivec3& cell);
     bool test(const glm::ivec3& cell) const;
@@ -49,7 +48,7 @@ public:
     const Brick& operator[](size_t i) const { return m_bricks[i]; }
 
 private:
-    uint32_t slotOf(uint64_t key) const;  // where it is, or the free slot where it belongs
+    uint32_t slotOf(uint64_t key) const;  // of the key, or the free slot to insert it into
     void grow();
     std::vector<uint64_t> m_keys;
     std::vector<Brick> m_bricks;

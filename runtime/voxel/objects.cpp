@@ -31,7 +31,8 @@ bool Objects::moved(Object& object, const scene::Pose& pose, float time) const {
     return moved;
 }
 
-void Objects::redo(Object& object, const scene::Pose& posed, double cellSize, const Picked& picked, Shell shell, Posed& scratch) {
+void Objects::rasteriseObject(Object& object, const scene::Pose& posed, double cellSize, const Picked& picked, Shell shell,
+                              Posed& scratch) {
     object.before.swap(object.bricks);
     object.bricks.clear();
     pose(*object.instance, object.part, posed, picked, scratch);
@@ -41,11 +42,11 @@ void Objects::redo(Object& object, const scene::Pose& posed, double cellSize, co
     try {
         const RasterReport report = rasterise(scratch.triangles(), cellSize, object.bricks, options);
         if (report.notFinite + report.tooFar > 0)
-            object.complaint = fmt::format("{} of {} triangles are left out: not finite, or beyond what cells can count",
+            object.error = fmt::format("{} of {} triangles are skipped: not finite, or more than 2^23 cells from the origin",
                                            report.notFinite + report.tooFar, scratch.indices.size() / 3);
-    } catch (const scene::Error& error) {
+    } catch (const scene::Error& failure) {
         object.bricks.clear();
-        object.complaint = error.what();
+        object.error = failure.what();
     }
     object.low = glm::ivec3(kMostCell);
     object.high = glm::ivec3(-kMostCell);
@@ -55,7 +56,7 @@ void Objects::redo(Object& object, const scene::Pose& posed, double cellSize, co
     }
 }
 
-void Objects::end(float time, double cellSize, const Picked& picked, Shell shell, std::vector<glm::ivec3>& changed, const Complain& complain) {
+void Objects::end(float time, double cellSize, const Picked& picked, Shell shell, std::vector<glm::ivec3>& changed, const Log& log) {
     const auto note = [&](const BrickSet& bricks) {
         for (size_t i = 0; i < bricks.size(); ++i) changed.push_back(bricks.place(i));
     };
@@ -80,13 +81,15 @@ void Objects::end(float time, double cellSize, const Picked& picked, Shell shell
     for (auto& [key, object] : m_objects)
         if (moved(object, poses[key.first], time)) jobs.push_back({&object, &poses[key.first]});
     tbb::enumerable_thread_specific<Posed> scratch;
-    tbb::parallel_for(size_t(0), jobs.size(), [&](size_t i) { redo(*jobs[i].first, *jobs[i].second, cellSize, picked, shell, scratch.local()); });
+    tbb::parallel_for(size_t(0), jobs.size(), [&](size_t i) {
+        rasteriseObject(*jobs[i].first, *jobs[i].second, cellSize, picked, shell, scratch.local());
+    });
     for (const auto& [object, posed] : jobs) {
         note(object->before);
         note(object->bricks);
-        if (!object->complaint.empty() && !object->complained) {
-            complain(fmt::format("{}, node {}: {}", object->model->name, object->part.node, object->complaint));
-            object->complained = true;
+        if (!object->error.empty() && !object->logged) {
+            log(fmt::format("{}, node {}: {}", object->model->name, object->part.node, object->error));
+            object->logged = true;
         }
     }
     m_redone = jobs.size();

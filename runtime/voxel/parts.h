@@ -1,4 +1,4 @@
-// The pieces a world is made of: what moves as one is rasterised as one.
+// Parts, the units of rasterisation: drawn nodes of instances.
 #pragma once
 
 #include <memory>
@@ -9,16 +9,15 @@
 
 namespace obscura::voxel {
 
-// One drawn node of one instance.
 struct Part {
     int node = -1;
-    bool moves = false;    // by the instance's animation; otherwise it rests for as long as its instance does
-    bool deforms = false;  // by skin or morph targets: its shape is another at every time
+    bool moves = false;    // under the instance's animation; else it moves with its instance only
+    bool deforms = false;  // by skin or morph targets: its shape depends on time
 };
 
-// Blended primitives are no occluders, as in the G-buffer; parts with nothing else are left out.
+// Selects the primitives that are occluders. Blended ones are not, as in the G-buffer; parts without occluders are skipped.
 struct Picked {
-    bool masked = true;    // alpha-masked ones are, as if they had no holes
+    bool masked = true;    // alpha-masked primitives are occluders, as if opaque
     bool operator()(const scene::Model& model, const scene::Primitive& primitive) const;
 };
 std::vector<Part> partsOf(const scene::Instance& instance, const Picked& picked);

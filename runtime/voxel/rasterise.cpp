@@ -15,14 +15,14 @@
 namespace obscura::voxel {
 namespace {
 
-// Cells that are only touched count, and rounding shall not take them away.
+// Cells. Widens the tests, so that rounding does not lose cells that are merely touched.
 constexpr double kTouch = 1e-7;
 
-// Sets cells one after the other; neighbours mostly share a brick, which is then not looked up again. All pens of a call count
-// new bricks together and stop at the limit.
-class Pen {
+// Sets cells and remembers the last brick: neighbours are mostly in the same one. The writers of a call count new bricks together and stop
+// at the limit.
+class CellWriter {
 public:
-    Pen(BrickSet& set, std::atomic<size_t>& taken, size_t limit) : m_set(set), m_taken(taken), m_limit(limit) {}
+    CellWriter(BrickSet& set, std::atomic<size_t>& taken, size_t limit) : m_set(set), m_taken(taken), m_limit(limit) {}
     void set(const glm::ivec3& cell) {
         const glm::ivec3 place = brickOf(cell);
         if (m_brick == nullptr || place != m_place) {
@@ -52,14 +52,14 @@ struct Range {
 // overlap along it while the cell's lower corner, a s + b t, lies in [low, high].
 struct Edge {
     double a, b, low, high;
-    bool holds(double s, double t) const {
+    bool overlaps(double s, double t) const {
         const double at = a * s + b * t;
         return at >= low && at <= high;
     }
-    // Leaves the t of a range that hold together with s.
+    // Narrows a range of t to those that overlap at s.
     void narrow(double s, Range& t) const {
         if (b == 0.0) {
-            if (!holds(s, 0.0)) t.to = t.from - 1;
+            if (!overlaps(s, 0.0)) t.to = t.from - 1;
             return;
         }
         const double inverse = 1.0 / b, one = (low - a * s) * inverse, two = (high - a * s) * inverse;
@@ -71,7 +71,7 @@ inline Edge edge(const glm::dvec3* p, int i, int s, int t, bool thin) {
     const glm::dvec3 &from = p[i], &to = p[(i + 1) % 3], &other = p[(i + 2) % 3];
     Edge e{from[t] - to[t], to[s] - from[s], 0.0, 0.0};
     const double along = e.a * from[s] + e.b * from[t], across = e.a * other[s] + e.b * other[t];
-    // A cell reaches this far from its middle; of a thin shell, only its axes do.
+    // Extent of a cell from its centre along the direction; of the thin shell, extent of the cell's axes only.
     const double sum = std::abs(e.a) + std::abs(e.b), middle = 0.5 * (e.a + e.b);
     const double reach = 0.5 * (thin ? std::max(std::abs(e.a), std::abs(e.b)) : sum) + kTouch * sum;
     e.low = std::min(along, across) - middle - reach;
@@ -79,9 +79,9 @@ inline Edge edge(const glm::dvec3* p, int i, int s, int t, bool thin) {
     return e;
 }
 
-// `p` in cells, counted from cell 0's lowest corner. Columns stand along w, the normal's largest axis, so that the plane stays within a few cells of each. A triangle
-// too thin for its normal to mean anything is left to the edges, with rows along its longest side.
-void draw(const glm::dvec3* p, bool thin, Pen& pen) {
+// `p` in cells, counted from the lowest corner of cell 0. Columns run along w, the normal's largest axis, so that the plane crosses few
+// cells of each. A triangle too thin for a reliable normal is decided by the edge tests alone, with rows along its longest side.
+void drawTriangle(const glm::dvec3* p, bool thin, CellWriter& writer) {
     glm::ivec3 low, high;
     for (int k = 0; k < 3; ++k) {
         low[k] = int(std::floor(std::min({p[0][k], p[1][k], p[2][k]}) - kTouch));
@@ -89,22 +89,22 @@ void draw(const glm::dvec3* p, bool thin, Pen& pen) {
     }
     const glm::ivec3 span = high - low;
     glm::ivec3 cell;
-    if (!thin && (span.x == 0) + (span.y == 0) + (span.z == 0) >= 2) {  // one row of cells: what is connected touches each
+    if (!thin && (span.x == 0) + (span.y == 0) + (span.z == 0) >= 2) {  // one row of cells: a triangle touches them all
         for (cell.x = low.x; cell.x <= high.x; ++cell.x)
             for (cell.y = low.y; cell.y <= high.y; ++cell.y)
-                for (cell.z = low.z; cell.z <= high.z && !pen.full(); ++cell.z) pen.set(cell);
+                for (cell.z = low.z; cell.z <= high.z && !writer.full(); ++cell.z) writer.set(cell);
         return;
     }
     const glm::dvec3 q[3] = {p[0] - glm::dvec3(low), p[1] - glm::dvec3(low), p[2] - glm::dvec3(low)};
-    if (!thin && (span.x == 0 || span.y == 0 || span.z == 0)) {  // one layer of cells: only its outline within the layer counts
+    if (!thin && (span.x == 0 || span.y == 0 || span.z == 0)) {  // one layer of cells: a test in two dimensions
         const int w = span.z == 0 ? 2 : span.x == 0 ? 0 : 1, u = (w + 1) % 3, v = (w + 2) % 3;
         const Edge edges[3] = {edge(q, 0, u, v, false), edge(q, 1, u, v, false), edge(q, 2, u, v, false)};
         cell[w] = low[w];
-        for (int i = 0; i <= span[u] && !pen.full(); ++i) {
+        for (int i = 0; i <= span[u] && !writer.full(); ++i) {
             Range across{0, span[v]};
             for (const Edge& e : edges) e.narrow(i, across);
             cell[u] = low[u] + i;
-            for (int j = across.from; j <= across.to; ++j) cell[v] = low[v] + j, pen.set(cell);
+            for (int j = across.from; j <= across.to; ++j) cell[v] = low[v] + j, writer.set(cell);
         }
         return;
     }
@@ -117,10 +117,10 @@ void draw(const glm::dvec3* p, bool thin, Pen& pen) {
     Edge uv[3], uw[3], vw[3];
     for (int i = 0; i < 3; ++i) uv[i] = edge(q, i, u, v, thin), uw[i] = edge(q, i, u, w, thin), vw[i] = edge(q, i, v, w, thin);
 
-    // Height of the plane over a column's middle, and how far from it a cell's lower side may be.
+    // Height of the plane at the middle of a column, and the largest distance from it to the lower side of an overlapping cell.
     const double slopeU = flat ? -n[u] / n[w] : 0.0, slopeV = flat ? -n[v] / n[w] : 0.0;
     const double reach = 0.5 + 0.5 * (thin ? 0.0 : std::abs(slopeU) + std::abs(slopeV)) + kTouch;
-    for (int i = 0; i <= span[u] && !pen.full(); ++i) {
+    for (int i = 0; i <= span[u] && !writer.full(); ++i) {
         Range across{0, span[v]};
         for (const Edge& e : uv) e.narrow(i, across);
         cell[u] = low[u] + i;
@@ -134,10 +134,10 @@ void draw(const glm::dvec3* p, bool thin, Pen& pen) {
                 for (const Edge& e : uw) e.narrow(i, up);
             }
             for (int k = up.from; k <= up.to; ++k) {
-                if (!(uw[0].holds(i, k) && uw[1].holds(i, k) && uw[2].holds(i, k))) continue;
-                if (!(vw[0].holds(j, k) && vw[1].holds(j, k) && vw[2].holds(j, k))) continue;
+                if (!(uw[0].overlaps(i, k) && uw[1].overlaps(i, k) && uw[2].overlaps(i, k))) continue;
+                if (!(vw[0].overlaps(j, k) && vw[1].overlaps(j, k) && vw[2].overlaps(j, k))) continue;
                 cell[w] = low[w] + k;
-                pen.set(cell);
+                writer.set(cell);
             }
         }
     }
@@ -145,10 +145,10 @@ void draw(const glm::dvec3* p, bool thin, Pen& pen) {
 
 bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-RasterReport drawRange(const Triangles& triangles, double inverse, bool thin, size_t begin, size_t end, Pen pen) {
+RasterReport drawRange(const Triangles& triangles, double inverse, bool thin, size_t begin, size_t end, CellWriter writer) {
     RasterReport report;
     constexpr double kMost = double(kMostCell - 1);
-    for (size_t i = begin; i < end && !pen.full(); ++i) {
+    for (size_t i = begin; i < end && !writer.full(); ++i) {
         const uint32_t* index = &triangles.indices[3 * i];
         const glm::vec3 &a = triangles.positions[index[0]], &b = triangles.positions[index[1]], &c = triangles.positions[index[2]];
         if (!finite(a) || !finite(b) || !finite(c)) {
@@ -161,14 +161,14 @@ RasterReport drawRange(const Triangles& triangles, double inverse, bool thin, si
             ++report.tooFar;
             continue;
         }
-        draw(p, thin, pen);
+        drawTriangle(p, thin, writer);
         ++report.triangles;
     }
     return report;
 }
 
 [[noreturn]] void refuse(double bricks, double cellSize, size_t most) {
-    throw scene::Error(fmt::format("voxels: the surfaces fill about {:.3g} bricks of 8x8x8 cells at {:.3g} m a cell, and {} are held; "
+    throw scene::Error(fmt::format("voxels: the surfaces need about {:.3g} bricks of 8x8x8 cells at {:.3g} m per cell; the limit is {}: "
                                    "use cells of {:.2g} m or more",
                                    bricks, cellSize, most, 1.1 * cellSize * std::sqrt(bricks / double(most))));
 }
@@ -193,12 +193,12 @@ double area(const Triangles& triangles, double within) {
         }
         return twice;
     };
-    // Deterministic, to the bit: cell sizes and with them names of files depend on it.
+    // Bit-exact for any number of threads: the cell size, and so the names of cached files, depend on it.
     const tbb::blocked_range<size_t> all(0, triangles.indices.size() / 3, 8192);
     return 0.5 * tbb::parallel_deterministic_reduce(all, 0.0, sum, std::plus<double>());
 }
 
-// A plane across a grid of bricks meets one to two of them per brick's face of its area, one and a half on average.
+// A plane through a grid of bricks crosses 1 to 2 bricks per brick-face area, 1.5 on average.
 double bricksOf(double area, double cellSize) {
     const double side = kBrickSide * cellSize;
     return 1.5 * area / (side * side);
@@ -209,33 +209,33 @@ RasterReport rasterise(const Triangles& triangles, double cellSize, BrickSet& in
     const double inverse = 1.0 / cellSize;
     const bool thin = options.shell == Shell::thin;
     constexpr size_t kBlock = 2048, kRound = size_t(1) << 20;
-    // Sheets that lie on each other count twice in the area: it decides alone only where it is far off.
+    // Coincident surfaces count twice in the area, so the estimate alone refuses only far above the limit.
     const double expected = bricksOf(area(triangles, cellSize * kMostCell), cellSize);
     if (expected > 16.0 * double(options.mostBricks)) refuse(expected, cellSize, options.mostBricks);
-    const size_t limit = 2 * options.mostBricks;  // threads may have the same brick
+    const size_t limit = 2 * options.mostBricks;  // several threads can have the same brick
     std::atomic<size_t> taken{into.size()};
     RasterReport report;
-    struct Share { BrickSet bricks; RasterReport report; };
-    tbb::enumerable_thread_specific<Share> shares;
+    struct ThreadResult { BrickSet bricks; RasterReport report; };
+    tbb::enumerable_thread_specific<ThreadResult> results;
     for (size_t first = 0; first < count; first += kRound) {
         if (options.progress) options.progress(float(first) / float(count));
         if (count <= kBlock) {
-            report += drawRange(triangles, inverse, thin, 0, count, Pen(into, taken, limit));
+            report += drawRange(triangles, inverse, thin, 0, count, CellWriter(into, taken, limit));
         } else {
             tbb::parallel_for(tbb::blocked_range<size_t>(first, std::min(count, first + kRound), kBlock), [&](const tbb::blocked_range<size_t>& range) {
-                Share& own = shares.local();
-                own.report += drawRange(triangles, inverse, thin, range.begin(), range.end(), Pen(own.bricks, taken, limit));
+                ThreadResult& own = results.local();
+                own.report += drawRange(triangles, inverse, thin, range.begin(), range.end(), CellWriter(own.bricks, taken, limit));
             });
-            for (Share& share : shares) {
-                into.merge(share.bricks);
-                share.bricks.clear();
+            for (ThreadResult& result : results) {
+                into.merge(result.bricks);
+                result.bricks.clear();
             }
         }
         if (taken > limit || into.size() > options.mostBricks)
             refuse(std::max(expected, double(std::max(into.size(), options.mostBricks + 1))), cellSize, options.mostBricks);
         taken = into.size();
     }
-    for (const Share& share : shares) report += share.report;
+    for (const ThreadResult& result : results) report += result.report;
     if (options.progress) options.progress(1.0f);
     return report;
 }

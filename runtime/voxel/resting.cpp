@@ -13,12 +13,12 @@
 namespace obscura::voxel {
 namespace {
 
-// Raised whenever the same triangles would give other bits.
+// Cache version: raise it when the same triangles give other bits.
 constexpr uint32_t kVersion = 2;
-// A cell no larger than a fourteenth of the usual reach of two metres: coarser ones darken what is open.
+// Metres. At most 1/14 of the usual reach of 2 m: larger cells darken open places.
 constexpr double kLargestCell = 0.14, kSmallestCell = 1e-4;
-// What arrives later with fewer resting triangles than this is carried along as an object.
-constexpr size_t kWorthBuilding = 4096;
+// An instance that is added later with fewer static triangles becomes an object instead of causing a rebuild.
+constexpr size_t kRebuildTriangles = 4096;
 
 bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -33,18 +33,18 @@ bool Resting::holds(const scene::World& world, const Picked& picked) {
         const auto member = m_members.find(instance.id);
         if (member != m_members.end()) {
             ++found;
-            if (member->second.is(instance)) continue;
-            if (member->second.model != instance.model) m_restless.clear();
-            else m_restless.insert(instance.id);
+            if (member->second.matches(instance)) continue;
+            if (member->second.model != instance.model) m_dynamic.clear();
+            else m_dynamic.insert(instance.id);
             same = false;
-        } else if (same && !m_restless.count(instance.id)) {
+        } else if (same && !m_dynamic.count(instance.id)) {
             size_t triangles = 0;
             for (const Part& part : partsOf(instance, picked))
                 if (!part.moves) triangles += trianglesOf(*instance.model, part, picked);
-            same = triangles < kWorthBuilding;
+            same = triangles < kRebuildTriangles;
         }
     }
-    if (found != m_members.size()) m_restless.clear();
+    if (found != m_members.size()) m_dynamic.clear();
     return same && found == m_members.size();
 }
 
@@ -61,8 +61,8 @@ void Resting::forEach(const scene::World& world, float time, const Picked& picke
     }
 }
 
-// Bounds, cell size and key: all that can be said without rasterising.
-std::string Resting::survey(const scene::World& world, float time, const Options& options) {
+// Sets bounds, cell size and triangle count, without rasterising. Returns the cache key.
+std::string Resting::measure(const scene::World& world, float time, const Options& options) {
     scene::Hash hash;
     double surface = 0.0;
     const auto bound = [&](const Posed& posed) {
@@ -80,13 +80,13 @@ std::string Resting::survey(const scene::World& world, float time, const Options
     m_cellSize = options.cellSize;
     if (m_cellSize <= 0.0) {
         const glm::dvec3 size = m_bounds.empty ? glm::dvec3(1.0) : glm::dvec3(m_bounds.max) - glm::dvec3(m_bounds.min);
-        // A brick at either end is left for the snapping.
+        // One brick at either end is reserved: the origin snaps to bricks.
         m_cellSize = std::clamp(std::max({size.x, size.y, size.z}) / double(options.cells - 2 * kBrickSide), kSmallestCell, kLargestCell);
         const double affordable = m_cellSize * std::sqrt(bricksOf(surface, m_cellSize) / (0.5 * double(options.mostBricks)));
         const glm::dvec3 far = m_bounds.empty ? glm::dvec3(0.0) : glm::max(glm::abs(glm::dvec3(m_bounds.min)), glm::abs(glm::dvec3(m_bounds.max)));
         const double countable = 1.01 * std::max({far.x, far.y, far.z}) / double(kMostCell);
         if (const double least = std::max(affordable, countable); least > m_cellSize) {
-            options.say(fmt::format("voxels: the world is too large for cells of {:.3g} m; they are {:.3g} m", m_cellSize, least));
+            options.say(fmt::format("voxels: the world is too large for cells of {:.3g} m; using {:.3g} m", m_cellSize, least));
             m_cellSize = least;
         }
     }
@@ -108,8 +108,9 @@ void Resting::rasteriseAll(const scene::World& world, float time, const Options&
         report += rasterise(posed.triangles(), m_cellSize, bricks, raster);
         done += count;
     });
-    if (report.notFinite) options.say(fmt::format("voxels: {} triangles with a vertex that is not finite are left out", report.notFinite));
-    if (report.tooFar) options.say(fmt::format("voxels: {} triangles lie more than {:.3g} m out and are left out", report.tooFar, m_cellSize * kMostCell));
+    if (report.notFinite) options.say(fmt::format("voxels: {} triangles with a vertex that is not finite are skipped", report.notFinite));
+    if (report.tooFar)
+        options.say(fmt::format("voxels: {} triangles beyond {:.3g} m from the origin are skipped", report.tooFar, m_cellSize * kMostCell));
     m_sparse.add(bricks);
 }
 
@@ -117,7 +118,8 @@ void Resting::build(const scene::World& world, float time, const Options& option
     const auto begun = std::chrono::steady_clock::now();
     m_members.clear();
     for (const scene::Instance& instance : world.instances())
-        if (instance.model && !m_restless.count(instance.id)) m_members[instance.id] = {instance.model, instance.placement, instance.animation, instance.root};
+        if (instance.model && !m_dynamic.count(instance.id))
+            m_members[instance.id] = {instance.model, instance.placement, instance.animation, instance.root};
     m_sparse = Sparse();
     m_bounds = {};
     m_facts = {};
@@ -128,7 +130,7 @@ void Resting::build(const scene::World& world, float time, const Options& option
         m_facts.bytes = m_sparse.bytes();
         m_facts.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     };
-    const std::string key = survey(world, time, options);
+    const std::string key = measure(world, time, options);
     if (!options.bits) return finish();
     const std::filesystem::path file = options.cache.empty() || m_facts.triangles == 0 ? "" : options.cache / (key + ".vdb");
     std::error_code ignored;
@@ -137,7 +139,7 @@ void Resting::build(const scene::World& world, float time, const Options& option
             m_sparse = Sparse::load(file, key);
             m_facts.fromCache = true;
         } catch (const scene::Error& broken) {
-            options.say(fmt::format("voxels: {}; making it again", broken.what()));
+            options.say(fmt::format("voxels: {}; it is built again", broken.what()));
         }
     }
     if (!m_facts.fromCache) {
@@ -147,7 +149,7 @@ void Resting::build(const scene::World& world, float time, const Options& option
                 std::filesystem::create_directories(options.cache, ignored);
                 m_sparse.save(file, key, m_cellSize);
             } catch (const scene::Error& unwritable) {
-                options.say(fmt::format("voxels: {}; going on without a cache", unwritable.what()));
+                options.say(fmt::format("voxels: {}; continuing without a cache", unwritable.what()));
             }
         }
     }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kGridName = "occupancy";
 constexpr const char* kKeyName = "obscura.key";
-constexpr std::string_view kSeal = "\nobscura ";  // then 32 hexadecimal digits: the last bytes of a file
+constexpr std::string_view kSeal = "\nobscura ";  // followed by 32 hexadecimal digits: the trailing line of a file
 constexpr size_t kSealBytes = kSeal.size() + 32;
 
 std::string seal(std::string_view bytes) { return std::string(kSeal) + scene::Hash().add(bytes).hex(); }
@@ -112,21 +112,21 @@ Sparse Sparse::load(const std::filesystem::path& file, const std::string& key) {
     std::ifstream in(file, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(in), {}};
     const auto refuse = [&](const char* why) -> scene::Error { return scene::Error(file.string() + ": " + why); };
-    if (bytes.size() < kSealBytes) throw refuse("is cut short");
-    const std::string stood = bytes.substr(bytes.size() - kSealBytes);
+    if (bytes.size() < kSealBytes) throw refuse("is truncated");
+    const std::string trailer = bytes.substr(bytes.size() - kSealBytes);
     bytes.resize(bytes.size() - kSealBytes);
-    if (seal(bytes) != stood) throw refuse("is damaged");
+    if (seal(bytes) != trailer) throw refuse("is damaged");
     Sparse result;
     try {
         openvdb::initialize();
         std::istringstream text(std::move(bytes), std::ios::binary);
         openvdb::io::Stream stream(text, /*delayLoad=*/false);
         const openvdb::GridPtrVecPtr grids = stream.getGrids();
-        if (grids->size() != 1) throw refuse("does not hold one grid");
+        if (grids->size() != 1) throw refuse("must have one grid");
         const auto grid = openvdb::gridPtrCast<openvdb::MaskGrid>(grids->front());
-        if (!grid) throw refuse("does not hold a mask");
+        if (!grid) throw refuse("must have a mask grid");
         const auto stored = grid->getMetadata<openvdb::StringMetadata>(kKeyName);
-        if (!stored || stored->value() != key) throw refuse("is of another world");
+        if (!stored || stored->value() != key) throw refuse("belongs to another world");
         result.m_impl->grid = grid;
     } catch (const openvdb::Exception& error) {
         throw refuse(error.what());

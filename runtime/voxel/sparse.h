@@ -1,5 +1,4 @@
-// The world that rests, in OpenVDB: a mask grid that holds bricks where there is surface and nothing elsewhere. OpenVDB itself
-// is seen by sparse.cpp alone.
+// A sparse set of bricks: an OpenVDB mask grid with leaves only where there is surface. Only sparse.cpp includes OpenVDB.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +19,9 @@ public:
 
     void add(const BrickSet& bricks);
     Sparse copy() const;
-    // Replaces a brick, an empty one by nothing. False: that is what stood there.
+    // Replaces a brick; an empty one is removed. False if this changes nothing.
     bool put(const glm::ivec3& place, const Brick& brick);
-    // False: no such brick. Any number of threads may ask.
+    // False if there is no such brick. Threads may call it concurrently.
     bool find(const glm::ivec3& place, Brick& out) const;
     bool test(const glm::ivec3& cell) const;
 
@@ -33,11 +32,11 @@ public:
     uint64_t bricks() const;
     uint64_t bytes() const;   // of memory, OpenVDB's tree included
 
-    // A .vdb file that any OpenVDB tool reads: one mask grid "occupancy" whose transform is the cell size. Behind it stands a line
-    // with the bytes' hash, so that a damaged file never reaches OpenVDB's reader. Written to a temporary name, then renamed.
-    // Throws scene::Error, one line.
+    // A .vdb file for any OpenVDB tool: one mask grid "occupancy" whose transform is the cell size. A trailing line has the hash of the
+    // bytes, so that a damaged file is refused before OpenVDB reads it. Written to a temporary name, then renamed. Throws scene::Error, one
+    // line.
     void save(const std::filesystem::path& file, const std::string& key, double cellSize) const;
-    // Throws scene::Error when the file is damaged, or is not of this key.
+    // Throws scene::Error if the file is damaged or has another key.
     static Sparse load(const std::filesystem::path& file, const std::string& key);
 
 private:

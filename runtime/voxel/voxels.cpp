@@ -15,8 +15,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-constexpr std::chrono::microseconds kPatience(900);  // of a millisecond: the rest is for waking up
-constexpr std::chrono::milliseconds kLook(100);    // how often a bar moves
+constexpr std::chrono::microseconds kMaxWait(900);  // 100 us of the promised 1 ms are left for waking up
+constexpr std::chrono::milliseconds kProgressInterval(100);
 
 }  // namespace
 
@@ -25,7 +25,7 @@ struct Voxels::Impl {
 
     const Options options;
 
-    // The worker's between post() and done(), the caller's otherwise.
+    // Owned by the worker between post() and done(), else by the caller.
     scene::World world;
     float time = 0.0f;
     glm::vec3 eye{0.0f};
@@ -33,45 +33,45 @@ struct Voxels::Impl {
     Objects objects;
     Window window;
     Picked picked;
-    Sparse composed;                  // what rests and what moves, where a grid is brought
-    std::vector<uint32_t> grid;       // of it
-    bool failed = false;              // the world as it rests cannot be held: said once, tried again when it is another
+    Sparse composed;                  // static geometry and objects; with options.nano
+    std::vector<uint32_t> grid;       // of `composed`
+    bool failed = false;              // static geometry could not be built: logged once, tried again when it changes
     std::vector<std::string> lines;
     double stepMilliseconds = 0.0;
 
-    // The caller's.
+    // Owned by the caller.
     Change change;
-    bool whole = false;
+    bool resendAll = false;
     uint64_t sentGrid = 0;            // bytes of the newest grid
     Statistics statistics;
     std::atomic<float> progress{1.0f};
-    bool told = true;                 // that building is over
-    Worker worker;                    // last: its thread ends before the rest goes
+    bool reportedEnd = true;          // of building, to options.progress
+    Worker worker;                    // last member: its thread ends before the others are destroyed
 
-    void tell();
+    void reportProgress();
     void composeGrid(std::span<const glm::ivec3> changed, bool all, const Window::Compose& compose);
     void step();
     void collect();
 };
 
-void Voxels::Impl::tell() {
+void Voxels::Impl::reportProgress() {
     const float now = progress;
-    if (options.progress && (now < 1.0f || !told)) options.progress(now);
-    told = now >= 1.0f;
+    if (options.progress && (now < 1.0f || !reportedEnd)) options.progress(now);
+    reportedEnd = now >= 1.0f;
 }
 
 void Voxels::Impl::composeGrid(std::span<const glm::ivec3> changed, bool all, const Window::Compose& compose) {
     if (all) composed = resting.sparse().copy();
-    bool other = all;
+    bool differs = all;
     for (const glm::ivec3& place : changed) {
         Brick brick;
         compose(place, brick);
-        other = composed.put(place, brick) || other;
+        differs = composed.put(place, brick) || differs;
     }
-    if (other) grid = composed.nano();
+    if (differs) grid = composed.nano();
 }
 
-// The worker's whole frame.
+// One frame, on the worker's thread.
 void Voxels::Impl::step() {
     bool rebuilt = false;
     if (!resting.holds(world, picked)) {
@@ -140,11 +140,11 @@ void Voxels::Impl::collect() {
         if (!grid.empty()) sentGrid = grid.size() * sizeof(uint32_t);
         change.grid.swap(grid);
     } else {
-        change.addresses = window.takeChanged(whole);
+        change.addresses = window.takeChanged(resendAll);
     }
     change.bricks.reserve(change.addresses.size());
     for (const uint32_t address : change.addresses) change.bricks.push_back(window[address]);
-    whole = false;
+    resendAll = false;
 
     statistics.resting = resting.facts();
     statistics.objects = objects.count();
@@ -164,7 +164,7 @@ Voxels::~Voxels() = default;
 
 const Change& Voxels::update(const scene::World& world, float time, const glm::vec3& eye, Wait wait) {
     Impl& impl = *m_impl;
-    const auto give = [&] {
+    const auto post = [&] {
         impl.world = world;
         impl.time = time;
         impl.eye = eye;
@@ -173,16 +173,16 @@ const Change& Voxels::update(const scene::World& world, float time, const glm::v
     const Clock::time_point begun = Clock::now();
     if (wait == Wait::exact) {
         impl.worker.wait();
-        give();
-        while (!impl.worker.done(kLook)) impl.tell();
-        impl.tell();
+        post();
+        while (!impl.worker.done(kProgressInterval)) impl.reportProgress();
+        impl.reportProgress();
         impl.collect();
-    } else if (impl.worker.done(kPatience)) {
-        impl.tell();
+    } else if (impl.worker.done(kMaxWait)) {
+        impl.reportProgress();
         impl.collect();
-        give();
+        post();
     } else {
-        impl.tell();
+        impl.reportProgress();
         ++impl.statistics.late;
         impl.statistics.changedBytes = 0;
         impl.change.addresses.clear();
@@ -194,7 +194,7 @@ const Change& Voxels::update(const scene::World& world, float time, const glm::v
     return impl.change;
 }
 
-void Voxels::resend() { m_impl->whole = true; }
+void Voxels::resend() { m_impl->resendAll = true; }
 
 Statistics Voxels::statistics() const {
     Statistics statistics = m_impl->statistics;

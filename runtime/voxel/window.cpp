@@ -13,7 +13,7 @@ bool Window::holds(const glm::ivec3& place) const {
 }
 
 uint32_t Window::addressOf(const glm::ivec3& place) const {
-    const glm::uvec3 p = glm::uvec3(place) & (m_side - 1);  // a power of two: the right remainder of negative places as well
+    const glm::uvec3 p = glm::uvec3(place) & (m_side - 1);  // a power of two: also correct for negative places
     return (p.x * m_side + p.y) * m_side + p.z;
 }
 

@@ -1,5 +1,5 @@
-// The part of the world that the GPU holds: a cube of bricks, dense, anchored to the world. A brick stands at the address its
-// place has modulo the cube's side, so a move leaves what stays where it is and writes only the slabs that entered.
+// The window on the GPU: a dense cube of bricks, addressed toroidally. A brick's address is its place modulo the cube's side, so moving the
+// window writes only the slabs that enter.
 #pragma once
 
 #include <functional>
@@ -10,23 +10,23 @@ namespace obscura::voxel {
 
 class Window {
 public:
-    explicit Window(uint32_t cells);  // a side: 64, 128, 256 or 512
+    explicit Window(uint32_t cells);  // per side: 64, 128, 256 or 512
 
-    // What the world holds in one brick.
+    // Computes the cells of one brick of the world.
     using Compose = std::function<void(const glm::ivec3& place, Brick& out)>;
-    // Moves to where `origin` is the lowest brick, then fills what entered and what `changed` names (duplicates and places
-    // outside are fine). `all`: everything is composed anew. Bricks that come out as they were are not touched.
+    // Makes `origin` the lowest brick, then composes the bricks that entered and those in `changed`, which may have duplicates and places
+    // outside. `all`: composes every brick. Bricks with equal contents do not count as changed.
     void update(const glm::ivec3& origin, std::span<const glm::ivec3> changed, bool all, const Compose& compose);
 
-    void place(const glm::ivec3& origin) { m_origin = origin; }  // and nothing else
+    void place(const glm::ivec3& origin) { m_origin = origin; }  // moves without composing
 
     uint32_t cells() const { return m_side * kBrickSide; }
     glm::ivec3 origin() const { return m_origin; }  // in bricks
     bool holds(const glm::ivec3& place) const;
-    uint32_t addressOf(const glm::ivec3& place) const;  // index of the brick, (x * side + y) * side + z of its place modulo side
+    uint32_t addressOf(const glm::ivec3& place) const;  // (x * side + y) * side + z, with the place modulo side
     const Brick& operator[](uint32_t address) const { return m_bricks[address]; }
 
-    // Addresses of the bricks that are others than when this was last called, in order. `all`: of every brick that is not empty.
+    // Addresses of the bricks that changed since the last call, ascending. `all`: of every brick that is not empty.
     std::vector<uint32_t> takeChanged(bool all);
 
 private:
@@ -39,7 +39,7 @@ private:
     std::vector<uint32_t> m_changed;
 };
 
-// The lowest brick of a window around the eye: in the middle of a world that fits, else around the eye but not beyond the world.
+// The lowest brick of a window, per axis: centred on the world if it fits, else on the eye, clamped to the world.
 glm::ivec3 windowOrigin(uint32_t cells, double cellSize, const glm::vec3& worldMin, const glm::vec3& worldMax, const glm::vec3& eye);
 
 }  // namespace obscura::voxel

@@ -38,9 +38,9 @@ void Worker::post(std::function<void()> job) {
     m_changed.notify_all();
 }
 
-bool Worker::done(std::chrono::microseconds most) {
+bool Worker::done(std::chrono::microseconds timeout) {
     std::unique_lock lock(m_mutex);
-    return m_changed.wait_for(lock, most, [this] { return !m_busy; });
+    return m_changed.wait_for(lock, timeout, [this] { return !m_busy; });
 }
 
 void Worker::wait() {

@@ -1,5 +1,4 @@
-// A thread that does one job at a time while its owner goes on. What a job reads and writes belongs to the thread from post()
-// until done(): two sides take turns, and neither needs a lock around its data.
+// A thread that runs one job at a time. From post() until done() the thread owns the data that the job uses, so neither side locks it.
 #pragma once
 
 #include <chrono>
@@ -13,13 +12,13 @@ namespace obscura::voxel {
 class Worker {
 public:
     Worker();
-    ~Worker();  // waits for the job that is running
+    ~Worker();  // waits for the running job
     Worker(const Worker&) = delete;
 
-    // Only while done(). The job must not throw.
+    // Requires done(). The job must not throw.
     void post(std::function<void()> job);
-    // Whether no job is left; waits for that at most so long.
-    bool done(std::chrono::microseconds most = std::chrono::microseconds(0));
+    // Waits at most `timeout`; true if no job is running.
+    bool done(std::chrono::microseconds timeout = std::chrono::microseconds(0));
     void wait();
 
 private:

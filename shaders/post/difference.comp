@@ -1,4 +1,4 @@
-// How far two pictures of visibility are apart: its size as grey, or with its sign in false colours.
+// Difference of two visibility images: its size as grey, or signed in false colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "post/false_colour.h"

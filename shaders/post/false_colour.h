@@ -1,6 +1,5 @@
-// Colours of a number with a sign, such as a difference of visibility: black where there is none, through blue to pale below 0,
-// through orange to pale above. Both arms gain lightness alike, so that the sign never hides the size, and the two hues
-// stay apart for the colour-blind. Three stops each, at 0, 1/2 and 1 of the range; sRGB-encoded bytes.
+// Diverging colour map of signed values, such as differences of visibility: near black at 0, blue to pale below, orange to pale above.
+// Equal sizes have equal lightness, and colour-blind readers can tell the hues apart. Stops at 0, 1/2 and 1 of the range; sRGB bytes.
 #ifndef OBSCURA_POST_FALSE_COLOUR_H
 #define OBSCURA_POST_FALSE_COLOUR_H
 #include "shared/types.h"

@@ -1,4 +1,4 @@
-// Every step-th pixel of the visible part in one small image for the host: where it is, how it moved, how open it is.
+// Samples every step-th pixel of the visible part into one small image for readback: visibility, depth, normal, motion.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "post/view.h"
@@ -6,7 +6,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform sampler2D first;    // visibility of A, visible size
-layout(set = 0, binding = 1) uniform sampler2D second;   // and of B; A again where there is none
+layout(set = 0, binding = 1) uniform sampler2D second;   // visibility of B, or of A again
 layout(set = 0, binding = 2) uniform sampler2D depth;    // linear; this and the following with guard band
 layout(set = 0, binding = 3) uniform usampler2D normals;
 layout(set = 0, binding = 4) uniform sampler2D motion;

@@ -1,4 +1,4 @@
-// Two pictures of visibility in one: the first left of a divider, the second right of it.
+// Merges two visibility images: the first left of a divider, the second right of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "post/view.h"

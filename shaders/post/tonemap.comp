@@ -1,4 +1,4 @@
-// Lit radiance to a picture: exposure, the ACES filmic curve, sRGB encoding.
+// Tone mapping: exposure, the ACES filmic curve, sRGB encoding. In: linear radiance. Out: the image of the visible part.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "post/view.h"

@@ -1,11 +1,11 @@
-// How a picture is made of an image: which texels, and what their values mean.
+// Push constants of the passes in shaders/post: mapping of texels, and display modes.
 #ifndef OBSCURA_POST_VIEW_H
 #define OBSCURA_POST_VIEW_H
 #include "shared/types.h"
 OBSCURA_SHARED_BEGIN
 
 struct ViewBlock {
-    uvec2 visible;   // size of the picture, px
+    uvec2 visible;   // size of the output, px
     vec2 scale;      // source texel = (pixel + 0.5) * scale + offset
     vec2 offset;
     uint mode;       // kView... below
@@ -31,8 +31,8 @@ OBSCURA_SHARED_SIZE(SamplesBlock, 32);
 
 struct DifferenceBlock {
     uvec2 visible;
-    float scale;     // 1 / the difference at which colours end
-    uint withSign;   // 0: grey, of either sign
+    float scale;     // 1 / the difference at which colours saturate
+    uint withSign;   // 0: absolute difference as grey; 1: false colours
 };
 OBSCURA_SHARED_SIZE(DifferenceBlock, 16);
 
@@ -42,18 +42,18 @@ inline constexpr
 const
 #endif
 uint kViewColor = 0,      // linear colour, sRGB-encoded
-     kViewGrey = 1,       // first channel, stored as it is
-     kViewSecond = 2,     // second channel, stored as it is
+     kViewGrey = 1,       // first channel, unchanged
+     kViewSecond = 2,     // second channel, unchanged
      kViewDeviceDepth = 3,
      kViewLinearDepth = 4,
      kViewMotion = 5,
      kViewNormal = 6,     // 32-bit packed normals
-     kViewInteger = 7,    // any other integers: their low bits
-     kViewValues = 8,     // four channels, stored as they are
-     kViewHistory = 9,    // ao/common/temporal.comp's past: frames gathered
-     kViewRejected = 10,  // and where they begin anew
-     kViewThickness = 11,  // first channel as ao::DepthLayers has it
-     kViewSecondThickness = 12;  // second channel, likewise; first 0: nothing there
+     kViewInteger = 7,    // other integers: the low byte of each channel
+     kViewValues = 8,     // three channels, unchanged
+     kViewHistory = 9,    // history of ao/common/temporal.comp: accumulated frames
+     kViewRejected = 10,  // history of ao/common/temporal.comp: white where accumulation starts again
+     kViewThickness = 11,  // ao::DepthLayers::thickness
+     kViewSecondThickness = 12;  // thickness in ao::DepthLayers::second; black without a second layer
 
 OBSCURA_SHARED_END
 #endif

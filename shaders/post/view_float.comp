@@ -1,4 +1,4 @@
-// A float or normalized image as a picture.
+// Debug view of a float or normalized image; modes in post/view.h.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "post/view.h"
@@ -11,10 +11,10 @@ layout(set = 0, binding = 1, rgba8) writeonly uniform image2D picture;
 
 layout(push_constant) uniform Constants { ViewBlock view; };
 
-// Near is bright: an octave of distance is a fourteenth of the range, 1/8 m to 2 km.
+// Logarithmic, near is bright: 1/8 m is white, 2 km is black, 1/14 of the range per octave.
 vec3 depthColor(float depth) { return vec3(clamp(1.0 - (log2(max(depth, 1e-6)) + 3.0) / 14.0, 0.0, 1.0)); }
 
-// Four decades, 1 mm to 10 m, from black to white.
+// Logarithmic: 1 mm is black, 10 m is white. Sheets are blue, endless solids red.
 vec3 thicknessColor(float t) { return t <= 0.0 ? vec3(0.1, 0.25, 0.9) : t >= 65504.0 ? vec3(0.6, 0.1, 0.05) : vec3(clamp((log2(t) * 0.30103 + 3.0) / 4.0, 0.0, 1.0)); }
 
 vec3 valueOf(vec4 texel) {
@@ -28,7 +28,7 @@ vec3 valueOf(vec4 texel) {
         case kViewLinearDepth: return texel.x <= 0.0 ? vec3(0.0) : depthColor(texel.x);
         case kViewThickness: return thicknessColor(texel.x);
         case kViewSecondThickness: return texel.x <= 0.0 ? vec3(0.0) : thicknessColor(texel.y);
-        // Grey stands still; red is left-right, green up-down, 32 px saturate. A root shows small ones.
+        // Grey at 0; red is horizontal, green vertical, saturated at 32 px. The square root makes small motion visible.
         case kViewMotion: return vec3(0.5 + 0.5 * sign(texel.xy) * sqrt(min(abs(texel.xy) / 32.0, 1.0)), 0.5);
         case kViewValues: return texel.rgb;
         default: return texel.rrr;

@@ -1,4 +1,4 @@
-// An integer image as a picture: packed normals as n/2 + 1/2, anything else by its low bits.
+// Debug view of an integer image: packed normals as n/2 + 1/2, temporal history, or the low byte of each channel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "post/view.h"

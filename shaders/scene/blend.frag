@@ -1,4 +1,4 @@
-// A blended surface, lit as it is drawn, over what lies behind. Premultiplied.
+// Alpha-blended surfaces, forward-lit, premultiplied alpha.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/frame.h"

@@ -1,12 +1,12 @@
-// Morphing, then skinning, of one primitive of one instance: rest pose in, posed positions and tangent frames out. The
-// same sums as scene::deform on the CPU [glTF 2.0, 3.7.2.2 and 3.7.3].
+// Morphing, then skinning, of one primitive of one instance [glTF 2.0, 3.7.2.2 and 3.7.3]; CPU version: scene::deform(). In: rest pose,
+// influences, targets. Out: posed positions and tangent frames, model space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/frame.h"
 
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Joints { vec4 joints[]; };          // three rows a matrix
+layout(set = 0, binding = 0, std430) readonly buffer Joints { vec4 joints[]; };          // three rows per matrix
 layout(set = 0, binding = 1, std430) readonly buffer Weights { ActiveWeight weights[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer Frames { uvec4 frames[]; };        // normal, tangent: snorm16 x 8
@@ -60,7 +60,7 @@ void main() {
         }
         vec4 p = vec4(position, 1.0);
         position = vec3(dot(x, p), dot(y, p), dot(z, p));
-        // Cofactors: right for normals under any scale.
+        // Cofactor matrix: correct for normals under any scale.
         vec3 a = cross(y.xyz, z.xyz), b = cross(z.xyz, x.xyz), c = cross(x.xyz, y.xyz);
         float side = dot(x.xyz, a) < 0.0 ? -1.0 : 1.0;
         normal = side * vec3(dot(a, normal), dot(b, normal), dot(c, normal));

@@ -1,4 +1,4 @@
-// Depth ahead of the G-buffer, for surfaces that are dear to shade.
+// Depth prepass of textured opaque surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/placed.glsl"

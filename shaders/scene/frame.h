@@ -1,4 +1,4 @@
-// What the geometry passes read per frame, per drawn thing, and what the deform pass is told per job.
+// Inputs of the geometry passes, per frame and per drawn instance; push constants of the deform pass.
 #ifndef OBSCURA_SCENE_FRAME_H
 #define OBSCURA_SCENE_FRAME_H
 #include "shared/types.h"
@@ -7,7 +7,7 @@ OBSCURA_SHARED_BEGIN
 struct SceneFrame {
     mat4 projection;   // eye -> clip, guard band included
     vec4 viewport;     // size.xy in px, then half of it
-    vec4 shown;        // the visible part in whole 2x2 quads: first, one past the last
+    vec4 visibleQuads; // the visible part in 2x2 quads: first (xy), one past the last (zw)
     vec4 orthographic; // x: 1 or 0
 };
 OBSCURA_SHARED_SIZE(SceneFrame, 112);
@@ -15,9 +15,9 @@ OBSCURA_SHARED_SIZE(SceneFrame, 112);
 // Matrices are three rows of a 3x4: dot(row, vec4(p, 1)).
 struct DrawItem {
     vec4 eye[3];       // object -> eye
-    vec4 previous[3];  // object as it was last frame -> last frame's clip x, y, w
-    vec4 normal[3];    // object -> eye for normals; .w: [0] 1 when nothing moved (motion is exactly 0), [1] sign of the determinant,
-                       // [2] shell, see scene/face.glsl
+    vec4 previous[3];  // object of last frame -> last frame's clip x, y, w
+    vec4 normal[3];    // object -> eye for normals; .w: [0] 1 if object and camera have not moved (motion is exactly 0), [1] sign of the
+                       // determinant, [2] shell, see scene/face.glsl
 };
 OBSCURA_SHARED_SIZE(DrawItem, 144);
 

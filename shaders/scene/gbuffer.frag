@@ -1,4 +1,4 @@
-// One opaque or masked surface into the G-buffer.
+// G-buffer of opaque and alpha-masked surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/face.glsl"
@@ -28,16 +28,16 @@ layout(location = 5) out vec4 outEmission;
 
 vec2 motion() {
     if (inFacts.x > 0.5) return vec2(0.0);
-    if (inPrevious.z <= 0.0) return vec2(kFarAway);  // was behind the camera: nothing to find there
+    if (inPrevious.z <= 0.0) return vec2(kFarAway);  // was behind the camera: no history
     vec2 before = (inPrevious.xy / inPrevious.z + 1.0) * frame.viewport.zw;
     return clamp(before - gl_FragCoord.xy, -kFarAway, kFarAway);
 }
 
-// Only geometry matters in the guard band: obscurance reads depth, geometric normals and motion there. Decided by whole
-// quads, so that texture derivatives stay defined.
-bool shown() {
+// False in the guard band, where only depth, geometric normals and motion are read. The same for all pixels of a quad, so that texture
+// derivatives are defined.
+bool isVisible() {
     vec2 quad = floor(gl_FragCoord.xy * 0.5);
-    return all(greaterThanEqual(quad, frame.shown.xy)) && all(lessThan(quad, frame.shown.zw));
+    return all(greaterThanEqual(quad, frame.visibleQuads.xy)) && all(lessThan(quad, frame.visibleQuads.zw));
 }
 
 void main() {
@@ -48,7 +48,7 @@ void main() {
     outBaseColor = outEmission = vec4(0.0);
     float face = float(faceOf(inFacts.y)) / 255.0;
     outMaterial = vec4(0.0, 0.0, 0.0, face);
-    bool full = shown();
+    bool full = isVisible();
     if (full || kMasked) {
         vec4 color = baseColorOf(inUv, inColor);
         if (kMasked && color.a < material.emission.w) discard;

@@ -1,4 +1,4 @@
-// Positions and normals into eye space; where the vertex was last frame. Shared by the G-buffer and blended surfaces.
+// Vertices of the G-buffer and of blended surfaces: eye-space position, normal and tangent, and last frame's clip position.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/placed.glsl"
@@ -16,7 +16,7 @@ layout(location = 2) out vec4 outTangent;
 layout(location = 3) out vec4 outUv;
 layout(location = 4) out vec4 outColor;
 layout(location = 5) out vec3 outPrevious;  // clip x, y, w
-layout(location = 6) flat out vec2 outFacts;  // 1 when nothing moved; shell
+layout(location = 6) flat out vec2 outFacts;  // 1 if object and camera have not moved; shell
 
 invariant gl_Position;
 

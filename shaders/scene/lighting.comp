@@ -1,4 +1,4 @@
-// G-buffer and visibility to lit radiance, over the visible part. The guard band of the target is left as it is.
+// Lighting of the visible part. In: G-buffer, visibility, shadow map. Out: radiance, linear; the guard band is not written.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/shade.glsl"

@@ -1,4 +1,4 @@
-// What lights a frame. All directions and positions in eye space.
+// Lights of a frame, directions in eye space.
 #ifndef OBSCURA_SCENE_LIGHTING_H
 #define OBSCURA_SCENE_LIGHTING_H
 #include "shared/types.h"
@@ -9,7 +9,7 @@ struct LightingBlock {
     View view;
     mat4 shadowFromEye;  // eye -> shadow map: xy in [0,1], z reversed depth
     vec4 toSun;          // unit; w: side of a shadow texel in metres
-    vec4 sun;            // irradiance of a surface that faces it, linear
+    vec4 sun;            // irradiance of a surface that faces the sun, linear
     vec4 sky;            // radiance from above
     vec4 ground;         // radiance from below
     vec4 up;             // unit; w: shadow map size in texels

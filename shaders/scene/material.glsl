@@ -1,4 +1,4 @@
-// The material of a draw: descriptor set 1, and how its textures are read. Include from fragment shaders.
+// Material inputs of fragment shaders: descriptor set 1 and texture reads.
 #ifndef OBSCURA_SCENE_MATERIAL_GLSL
 #define OBSCURA_SCENE_MATERIAL_GLSL
 #include "scene/material.h"
@@ -10,7 +10,7 @@ layout(set = 1, binding = 3) uniform sampler2D normalMap;
 layout(set = 1, binding = 4) uniform sampler2D emissionMap;
 layout(set = 1, binding = 5) uniform sampler2D occlusionMap;
 
-// Bit n: slot n has a texture. A constant, because rasterizers on a CPU run both sides of a branch.
+// Bit n: slot n has a texture. A specialization constant, because software rasterizers run both sides of a branch.
 layout(constant_id = 1) const uint kMaps = 31u;
 bool hasMap(uint slot) { return (kMaps & (1u << slot)) != 0u; }
 

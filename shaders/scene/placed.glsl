@@ -1,4 +1,4 @@
-// Where a vertex is. One source for the depth pass and the G-buffer, which must agree to the bit.
+// Vertex transforms, shared by the depth prepass, the G-buffer and depth layers, whose depths must agree to the bit.
 #ifndef OBSCURA_SCENE_PLACED_GLSL
 #define OBSCURA_SCENE_PLACED_GLSL
 #include "scene/frame.h"

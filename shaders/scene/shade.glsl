@@ -1,4 +1,4 @@
-// How light leaves a surface: GGX and Lambert for the sun, a hemisphere and its reflection for the sky.
+// Shading: GGX and Lambert for the sun, a hemisphere light and its reflection for the sky.
 #ifndef OBSCURA_SCENE_SHADE_GLSL
 #define OBSCURA_SCENE_SHADE_GLSL
 #include "scene/lighting.h"
@@ -12,10 +12,10 @@ struct Surface {
     vec3 baseColor;
     float roughness;
     float metalness;
-    float visibility; // ambient light that arrives, 1: all
+    float visibility; // of the ambient light; 1: open
 };
 
-// What is seen in a direction where nothing is: a pale horizon between the two hemispheres' radiance.
+// Radiance of the background in a direction: sky above, ground below, a paler horizon between.
 vec3 skyRadiance(LightingBlock light, vec3 direction) {
     float up = dot(direction, light.up.xyz);
     vec3 horizon = light.sky.rgb * vec3(1.08, 1.04, 0.98);
@@ -58,10 +58,10 @@ vec3 sunReflection(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float roughnes
     return (diffuse / kPi * (1.0 - fresnel) + fresnel * (distribution * smith)) * nl;
 }
 
-// Part of the sun that arrives: 3x3 texels, bilinear in between, by four gathers.
+// Visibility of the sun, 0 to 1: a 3x3 filter with bilinear weights, by four gathers.
 float sunlight(LightingBlock light, sampler2DShadow shadow, vec3 position, vec3 geometric) {
     float facing = dot(geometric, light.toSun.xyz);
-    // A step along the normal that covers what a texel's filter width hides at this slope.
+    // Offset along the normal against self-shadowing: the depth range of the filter's width at this slope.
     float slope = sqrt(max(1.0 - facing * facing, 0.0));
     vec3 lifted = position + geometric * (light.toSun.w * (0.35 + 1.65 * slope));
     vec3 s = (light.shadowFromEye * vec4(lifted, 1.0)).xyz;
@@ -76,7 +76,7 @@ float sunlight(LightingBlock light, sampler2DShadow shadow, vec3 position, vec3 
     vec4 b = textureGather(shadow, corner + vec2(2.0, 0.0) / size, reference);
     vec4 c = textureGather(shadow, corner + vec2(0.0, 2.0) / size, reference);
     vec4 d = textureGather(shadow, corner + vec2(2.0, 2.0) / size, reference);
-    // Columns weigh (1-f, 1, 1, f). A gather returns (0,1) (1,1) (1,0) (0,0).
+    // Weights of the columns: (1-f, 1, 1, f). A gather returns (0,1) (1,1) (1,0) (0,0).
     vec4 w = vec4(1.0 - f.x, 1.0, 1.0, f.x);
     float top = dot(w, vec4(a.w, a.z, b.w, b.z)) * (1.0 - f.y) + dot(w, vec4(a.x, a.y, b.x, b.y));
     float bottom = dot(w, vec4(c.w, c.z, d.w, d.z)) + dot(w, vec4(c.x, c.y, d.x, d.y)) * f.y;
@@ -89,7 +89,7 @@ vec3 shade(LightingBlock light, Surface s, float sun) {
     vec3 f0 = mix(vec3(0.04), s.baseColor, s.metalness);
     vec3 diffuse = s.baseColor * (1.0 - s.metalness);
     vec3 color = diffuse * hemisphere(light, s.normal) * s.visibility;
-    // A rough mirror sees the whole hemisphere around its reflection.
+    // With growing roughness the reflection approaches the hemisphere light.
     vec3 r = reflect(-v, s.normal);
     vec3 mirrored = mix(skyRadiance(light, r), hemisphere(light, r), s.roughness * s.roughness);
     color += mirrored * environmentBrdf(f0, s.roughness, nv) * specularVisibility(s.visibility, nv, s.roughness);

@@ -1,4 +1,4 @@
-// Depth as the sun sees it.
+// Vertices of the shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/frame.h"

@@ -1,4 +1,4 @@
-// Depth of what is left of a masked surface.
+// Alpha test of masked surfaces in the shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/material.glsl"

@@ -1,4 +1,4 @@
-// Depth as the sun sees it, of surfaces whose texture has holes.
+// Vertices of the shadow map, for alpha-masked surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/frame.h"

@@ -1,11 +1,11 @@
-// Facts of a rasterized surface point that do not depend on its material.
+// Geometric normal of a fragment; constant for motion that cannot be followed.
 #ifndef OBSCURA_SCENE_SURFACE_GLSL
 #define OBSCURA_SCENE_SURFACE_GLSL
 
-const float kFarAway = 32000.0;  // px: motion that leads off any image and still fits a half
+const float kFarAway = 32000.0;  // px: motion out of any image; fits a half float
 
-// The triangle's own normal, facing the viewer. Interpolated positions of one triangle, helper invocations included, lie
-// in its plane, so any two differences within a quad span it.
+// The triangle's normal, facing the viewer. Interpolated positions, helper invocations included, are in the triangle's plane, so
+// derivatives within a quad span it.
 vec3 geometricNormal(vec3 eye, vec3 interpolated, bool orthographic) {
     vec3 n = cross(dFdx(eye), dFdy(eye));
     float length2 = dot(n, n);

@@ -1,5 +1,5 @@
-// The falloff rho(d): how much an occluder at d metres counts, 1 at d = 0. One type for every method and both references,
-// evaluated by one formula without branches, so that every kind costs the same:
+// The falloff rho(d): weight of an occluder at d metres, 1 at d = 0. One type for all methods and both references, evaluated by one
+// formula without branches, so that every kind costs the same:
 //     rho(d) = clamp(c0 + c1 d + ... + c5 d^5, 0, 1) * 2^(-decay d)   for d <= reach, else 0
 #ifndef OBSCURA_SHARED_FALLOFF_H
 #define OBSCURA_SHARED_FALLOFF_H
@@ -8,8 +8,8 @@ OBSCURA_SHARED_BEGIN
 
 struct FalloffBlock {  // made by ao::falloffBlock()
     float c0, c1, c2, c3, c4, c5;  // per metre, metre^2, ...
-    float decay;                   // per metre; 0 but for exponential
-    float reach;                   // metres; beyond it rho counts as 0
+    float decay;                   // per metre; 0 except for exponential
+    float reach;                   // metres; beyond it rho is 0
 };
 OBSCURA_SHARED_SIZE(FalloffBlock, 32);
 

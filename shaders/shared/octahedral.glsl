@@ -8,7 +8,7 @@ vec2 toOctahedron(vec3 n) {
     vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
     return n.z >= 0.0 ? n.xy : folded;
 }
-// Towards the vector, of any length, where its square is divided out: neither divisions nor roots. `one`: what 1 is packed as.
+// The unpacked vector without normalisation, for callers that divide by its length anyway. `one`: the packed value of 1.
 vec3 directionOf(vec2 e, float one) {
     vec3 n = vec3(e, one - abs(e.x) - abs(e.y));
     float t = max(-n.z, 0.0);

@@ -1,5 +1,5 @@
-// Lets one header declare a struct for C++ and for GLSL. In C++ the GLSL names become plain data of the same size; blocks
-// are laid out by std430/std140 rules, so keep members in 16-byte groups (every struct asserts its size).
+// Types and macros for headers that declare structs for both C++ and GLSL. In C++ the GLSL types are plain data of the same size. Blocks
+// follow std430/std140, so keep members in 16-byte groups; every struct asserts its size.
 #ifndef OBSCURA_SHARED_TYPES_H
 #define OBSCURA_SHARED_TYPES_H
 

@@ -1,5 +1,5 @@
-// The picture every obscurance method works in. Pixels count over the whole buffers, guard band included, from the upper
-// left; eye space is right-handed, camera at the origin looking down -z, y up, metres. Linear depth is -z.
+// View: sizes and projection of a frame, for all methods. Pixels count from the upper left of the buffers, guard band included. Eye space
+// is right-handed, camera at the origin looking down -z, y up, metres. Linear depth is -z.
 #ifndef OBSCURA_SHARED_VIEW_H
 #define OBSCURA_SHARED_VIEW_H
 #include "types.h"
@@ -9,13 +9,13 @@ struct View {
     uvec2 size;          // of the buffers, px
     uvec2 visible;       // of the part that is shown, px
     uvec2 guard;         // where the visible part begins, px
-    float pixelsPerMetre;  // of an upright length at linear depth 1 m (perspective) or at any depth (orthographic)
+    float pixelsPerMetre;  // of a length parallel to the image, at linear depth 1 m (perspective) or at any depth (orthographic)
     float orthographic;  // 1 or 0
     vec4 unproject;      // eye.xy = (pixelCentre * unproject.xy + unproject.zw) * (orthographic ? 1 : depth)
     vec4 project;        // pixelCentre = eye.xy / (orthographic ? 1 : depth) * project.xy + project.zw
     vec4 linearize;      // linear depth = (d * x + y) / (d * z + w), d the device depth in [0,1]
-    uint frame;          // counts up; drives per-frame sample rotation
-    uint temporal;       // 1: samples may rotate over frames, history takes the noise out
+    uint frame;          // frame number; selects the rotation of samples
+    uint temporal;       // 1: samples rotate over frames, because history averages them
     float skyDepth;      // linear depth at or beyond which a pixel is sky
     uint unused;
 };
@@ -35,8 +35,8 @@ vec2 pixelOf(View view, vec3 eye) {
 // Unit vector from an eye-space point towards the camera.
 vec3 towardsEye(View view, vec3 eye) { return view.orthographic > 0.5 ? vec3(0, 0, 1) : normalize(-eye); }
 bool isSky(View view, float depth) { return depth >= view.skyDepth; }
-// What noise in [0,1) is shifted by this frame, three dimensions: additive sequence on the plastic number's kin [Roberts 2018,
-// The Unreasonable Effectiveness of Quasirandom Sequences]. Zero where no history would average it.
+// This frame's shift of noise in [0,1)^3: the additive sequence R3 [Roberts 2018, The Unreasonable Effectiveness of Quasirandom
+// Sequences]. Zero without temporal reprojection.
 vec3 frameShift(View view) {
     return view.temporal != 0u ? fract(float(view.frame & 1023u) * vec3(0.8191725134, 0.6710436067, 0.5497004779)) : vec3(0.0);
 }

@@ -1,6 +1,6 @@
-// Occupied cells of the world around the camera: a cube of bits, dense, world-anchored. Eight cells a side are a brick of 16
-// words: bit 8 (y & 3) + (z & 7) of word 2 (x & 7) + ((y & 7) >> 2). Bricks stand in the order ((x >> 3) s + (y >> 3)) s + (z >> 3),
-// s bricks a side, at their place modulo the side: a window that moves leaves what stays where it is.
+// Lookups in the volume: occupied cells of the world around the camera, as a dense, world-anchored cube of bits. A brick has 8 cells a side
+// and 16 words: bit 8 (y & 3) + (z & 7) of word 2 (x & 7) + ((y & 7) >> 2). Bricks are in the order ((x >> 3) s + (y >> 3)) s + (z >> 3), s
+// bricks a side. Coordinates are modulo the side, so moving the window rewrites only the cells that enter.
 #ifndef OBSCURA_SHARED_VOLUME_H
 #define OBSCURA_SHARED_VOLUME_H
 #include "types.h"
@@ -9,7 +9,7 @@ OBSCURA_SHARED_BEGIN
 struct Volume {
     vec4 rows[3];  // (eye-space point, 1) -> cells from the window's lowest corner
     uvec4 shift;   // xyz: the lowest cell modulo the side; w: cells a side, a power of two; 0: a NanoVDB grid, see below
-    vec4 anchor;   // w: metres a cell; the rest is 0
+    vec4 anchor;   // w: metres per cell; the rest is 0
 };
 OBSCURA_SHARED_SIZE(Volume, 80);
 
@@ -17,11 +17,11 @@ OBSCURA_SHARED_END
 
 #ifndef __cplusplus
 vec3 cellOf(Volume v, vec3 eye) { return vec3(dot(v.rows[0], vec4(eye, 1)), dot(v.rows[1], vec4(eye, 1)), dot(v.rows[2], vec4(eye, 1))); }
-// Cells a metre along an eye-space direction.
+// An eye-space direction in cells per metre.
 vec3 cellsAlong(Volume v, vec3 d) { return vec3(dot(v.rows[0].xyz, d), dot(v.rows[1].xyz, d), dot(v.rows[2].xyz, d)); }
-// And back: the eye-space direction of a unit vector along the cells' axes.
+// The inverse: the eye-space direction of a unit vector in cell axes.
 vec3 eyeAlong(Volume v, vec3 d) { return (v.rows[0].xyz * d.x + v.rows[1].xyz * d.y + v.rows[2].xyz * d.z) * v.anchor.w; }
-// The word and the bit in it of a cell. Any cell has one: ask insideVolume() first.
+// Word and bit of a cell. Coordinates wrap: check insideVolume() first.
 uint wordOf(Volume v, uvec3 cell) {
     uvec3 p = (cell + v.shift.xyz) & (v.shift.w - 1u);
     uvec3 brick = p >> 3;
@@ -36,22 +36,22 @@ bool insideVolume(Volume v, vec3 cell) {
     return min(min(cell.x, cell.y), cell.z) >= 0.0 && max(max(cell.x, cell.y), cell.z) < float(v.shift.w);
 }
 
-// A shader that looks cells up says at which binding of set 0 the bits stand, before it includes this, and calls openVolume() before
-// the first look. With VOLUME_NANOVDB the same functions look into a NanoVDB grid; `shift` is then a cell near the eye, and w 0.
+// A shader that reads cells defines VOLUME_BINDING, the binding of the bits in set 0, before including this, and calls openVolume() before
+// the first lookup. With VOLUME_NANOVDB the same functions read a NanoVDB grid; `shift` is then a cell near the eye, and w is 0.
 #ifdef VOLUME_BINDING
 #ifdef VOLUME_NANOVDB
 #include "shared/volume_nanovdb.h"
 #else
 layout(set = 0, binding = VOLUME_BINDING, std430) readonly buffer VolumeBits { uint volumeBits[]; };
-// Whether a place, in cells from the window's lowest corner, lies in a set cell.
+// Whether a place, in cells from the window's lowest corner, is in a set cell.
 bool occupied(Volume v, vec3 place) {
     uvec3 cell = uvec3(ivec3(place));
     return (volumeBits[wordOf(v, cell)] >> bitOf(v, cell) & 1u) != 0u && insideVolume(v, place);
 }
 void openVolume() {}
 
-// For walks from cell to cell: 0 where a place lies in a set cell, else the side of the largest known cube of empty cells that it lies
-// in, and where that begins; the place is within the box.
+// For traversal: emptySide() is 0 in a set cell, else the side of the largest known empty cube around the place; cubeBegin() is that
+// cube's lowest corner. The place must be inside volumeBox().
 float emptySide(Volume v, vec3 place) {
     if (occupied(v, place)) return 0.0;
     uint word = wordOf(v, uvec3(ivec3(place))) & ~15u, any = 0u;

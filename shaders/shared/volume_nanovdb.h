@@ -1,5 +1,5 @@
-// shared/volume.h's lookups in a NanoVDB grid of type mask in place of the window of bits: for shaders that define VOLUME_NANOVDB. The
-// traversal is PNanoVDB's; its accessor remembers the nodes of the last look, so neighbours are cheap.
+// Lookups of shared/volume.h in a NanoVDB grid of type mask instead of the dense window, for shaders that define VOLUME_NANOVDB. PNanoVDB
+// does the traversal; its accessor caches the nodes of the last lookup, so neighbouring cells are cheap.
 #ifndef OBSCURA_SHARED_VOLUME_NANOVDB_H
 #define OBSCURA_SHARED_VOLUME_NANOVDB_H
 

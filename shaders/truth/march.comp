@@ -1,6 +1,5 @@
-// The screen reference: one invocation a receiver and sequence marches rays through every texel of the depth buffer that
-// they cross. In: linear depth (guard band included), receivers, falloffs as tables. Out: sums of rho(first hit), laid out
-// [receiver][falloff][sequence].
+// The screen reference: one invocation per receiver and sequence marches rays through every texel of the depth buffer that they cross. In:
+// linear depth (guard band included), receivers, falloffs as tables. Out: sums of rho(first hit), layout [receiver][falloff][sequence].
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/view.h"
@@ -24,8 +23,8 @@ float rho(uint falloff, float d) {
     return mix(tables[at], tables[at + 1u], x - float(i));
 }
 
-// Metres to the first point behind the depth buffer, negative when the ray escapes. Texels are crossed in order
-// [Amanatides and Woo 1987] along the projected segment; s runs from 0 to 1 over it.
+// Metres to the first point behind the depth buffer; negative if the ray escapes. Traverses the texels of the projected segment in order
+// [Amanatides and Woo 1987]; s is the fraction of the segment.
 float march(vec3 origin, vec3 direction) {
     bool perspective = view.orthographic < 0.5;
     float d0 = -origin.z, slope = -direction.z;
@@ -45,7 +44,7 @@ float march(vec3 origin, vec3 direction) {
     ivec2 size = ivec2(view.size);
 
     float enterT = 0.0, enterD = d0;
-    vec2 before = vec2(0.0, -1.0);  // in the middle of the texel before: t, metres behind it
+    vec2 before = vec2(0.0, -1.0);  // at the middle of the previous texel: t, metres behind the depth buffer
     bool first = true;
     while (all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size))) {
         float s = min(min(next.x, next.y), 1.0);
@@ -57,8 +56,8 @@ float march(vec3 origin, vec3 direction) {
         if (max(enterD, leaveD) > front && min(enterD, leaveD) < back && !isSky(view, z)) {
             if (enterD >= back) return (back - d0) / slope;              // from behind
             if (enterD > front + 2.0 * (front - z)) return enterT;       // past a silhouette
-            // The ray has gone through a surface between the texels' centres, or through one that it was within the
-            // tolerance of for a texel or two: where the line through both says.
+            // The ray crosses the surface between the centres of two texels, or was within the tolerance for a texel or two: the crossing
+            // is extrapolated linearly from both.
             float crossing = first || here.y <= before.y ? enterT : mix(before.x, here.x, before.y / (before.y - here.y));
             return clamp(crossing, max(before.x - 2.0 * (here.x - before.x), 0.0), leaveT);
         }

@@ -1,6 +1,6 @@
-// The rays both references cast, in C++ and in GLSL: the same numbers on either side. Ray k of a receiver is point k / 16 of
-// the Owen-scrambled Sobol sequence number k % 16; the sequences are scrambled independently, so that the scatter of their
-// means tells the error of the mean [Owen 1995; L'Ecuyer and Lemieux 2002].
+// The rays of both references, with the same numbers in C++ and GLSL. Ray k of a receiver is point k / 16 of the Owen-scrambled Sobol
+// sequence k % 16. The sequences are scrambled independently, so the scatter of their means estimates the error of the mean [Owen 1995;
+// L'Ecuyer and Lemieux 2002].
 #ifndef OBSCURA_TRUTH_RAYS_H
 #define OBSCURA_TRUTH_RAYS_H
 #include "shared/types.h"
@@ -22,11 +22,11 @@ OBSCURA_SHARED_SIZE(MarchReceiver, 32);
 struct MarchConstants {
     uint receivers;
     uint firstPoint;     // of every sequence
-    uint points;         // a dispatch
+    uint points;         // of every sequence, in this dispatch
     uint falloffs;
     float rayLength;     // m
     float thickness;     // m along the view axis; huge: infinite
-    float near;          // rays that come nearer to the camera's plane have escaped
+    float near;          // m; a ray nearer to the camera's plane has escaped
     float tolerance;     // m at a depth of 1 m (orthographic: m) that a ray must be behind a texel to be blocked
     uint tableSize;      // samples of each falloff
     uint unused[3];

@@ -1,7 +1,6 @@
-// Triangles to the volume's bits, conservatively: what runtime/voxel/rasterise.cpp does, with single precision and a slack that
-// covers its rounding, so that no cell is lost; cells that a triangle misses by less than that slack come in addition. Small
-// triangles are drawn by one invocation each, large ones row by row by their whole workgroup. Nothing but atomics on a buffer is
-// asked of the device. In: vertices of a primitive, or their posed positions, and indices. Out: bits, set and never cleared.
+// Triangles to the volume's bits, as runtime/voxel/rasterise.cpp, in single precision. A slack covers the rounding: no cell is lost, and
+// cells that a triangle misses by less than the slack are set too. One invocation draws a small triangle; the workgroup draws a large one,
+// one row per invocation. In: vertices of a primitive, or their posed positions, and indices. Out: bits, set by atomic OR, never cleared.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume.h"
@@ -13,9 +12,9 @@ layout(set = 1, binding = 0, std430) readonly buffer Vertices { float vertices[]
 layout(set = 1, binding = 1, std430) readonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Constants { VoxelJob jobConstants; };
 
-// Columns of cells up to which an invocation draws a triangle alone.
-const int kAlone = 64;
-const float kFarthest = 8388608.0;  // cells; whole numbers end there
+// Largest number of cell columns of a triangle that one invocation draws.
+const int kSmallColumns = 64;
+const float kFarthest = 8388608.0;  // cells; above, floats have no fractions
 
 shared uint largeCount;
 shared uint large[gl_WorkGroupSize.x];
@@ -38,69 +37,70 @@ Edge edgeOf(vec2 from, vec2 to, vec2 other, float slack, bool thin) {
     return e;
 }
 
-// Leaves of a range the t that hold together with s.
+// Narrows a range of t to those that overlap at s.
 vec2 narrow(Edge e, float s, vec2 range) {
     float from = e.low - e.a * s, to = e.high - e.a * s;
-    bool flat_ = abs(e.b) < 1e-12;
-    float inverse = 1.0 / (flat_ ? 1.0 : e.b), one = from * inverse, two = to * inverse;
+    bool constant = abs(e.b) < 1e-12;
+    float inverse = 1.0 / (constant ? 1.0 : e.b), one = from * inverse, two = to * inverse;
     vec2 narrowed = vec2(max(range.x, ceil(min(one, two))), min(range.y, floor(max(one, two))));
-    return flat_ ? (from <= 0.0 && to >= 0.0 ? range : vec2(1.0, 0.0)) : narrowed;
+    return constant ? (from <= 0.0 && to >= 0.0 ? range : vec2(1.0, 0.0)) : narrowed;
 }
 
-vec3 place(VoxelJob job, uint triangle, uint corner) {
+// A triangle's corner, in cells.
+vec3 cornerOf(VoxelJob job, uint triangle, uint corner) {
     uint at = job.positions + indices[job.indices + 3u * triangle + corner] * 3u;
     vec4 p = job.posed != 0u ? vec4(posedPositions[at], posedPositions[at + 1u], posedPositions[at + 2u], 1.0)
                              : vec4(vertices[at], vertices[at + 1u], vertices[at + 2u], 1.0);
     return vec3(dot(job.rows[0], p), dot(job.rows[1], p), dot(job.rows[2], p));
 }
 
-// What of a triangle lies in the window, columns along z, its normal's largest axis.
+// A triangle and the window's cells in its bounding box; axes rotated so that columns run along z, its normal's largest axis.
 struct Shape {
-    vec3 p0, p1, p2;  // counted from `low`, axes turned
-    ivec3 low, span;  // cells, axes turned
-    float slack;
-    int axis;         // that z was
+    vec3 p0, p1, p2;  // cells from `low`, axes rotated
+    ivec3 low, span;  // cells, axes rotated
+    float slack;      // cells
+    int axis;         // the original axis of z
 };
 
-ivec3 turned(ivec3 v, int axis) { return axis == 2 ? v : axis == 0 ? v.yzx : v.zxy; }
-vec3 turned(vec3 v, int axis) { return axis == 2 ? v : axis == 0 ? v.yzx : v.zxy; }
-ivec3 turnedBack(ivec3 v, int axis) { return axis == 2 ? v : axis == 0 ? v.zxy : v.yzx; }
+ivec3 rotated(ivec3 v, int axis) { return axis == 2 ? v : axis == 0 ? v.yzx : v.zxy; }
+vec3 rotated(vec3 v, int axis) { return axis == 2 ? v : axis == 0 ? v.yzx : v.zxy; }
+ivec3 rotatedBack(ivec3 v, int axis) { return axis == 2 ? v : axis == 0 ? v.zxy : v.yzx; }
 
-// False where nothing is to be drawn: outside, too far out, or not finite.
+// False if the triangle is outside the window, too far from it, or not finite.
 bool shapeOf(VoxelJob job, uint triangle, out Shape s) {
-    vec3 p0 = place(job, triangle, 0u), p1 = place(job, triangle, 1u), p2 = place(job, triangle, 2u);
+    vec3 p0 = cornerOf(job, triangle, 0u), p1 = cornerOf(job, triangle, 1u), p2 = cornerOf(job, triangle, 2u);
     vec3 lowest = min(min(p0, p1), p2), highest = max(max(p0, p1), p2), most = max(abs(lowest), abs(highest));
     float farthest = max(max(most.x, most.y), most.z);
     s.slack = max(1e-4, 4e-7 * farthest);
-    vec3 total = p0 + p1 + p2;  // comparisons alone would lose a NaN in min and max
-    bool sound = farthest < kFarthest && abs(total.x) + abs(total.y) + abs(total.z) < 16.0 * kFarthest;
+    vec3 total = p0 + p1 + p2;  // min and max can drop a NaN, a sum cannot
+    bool valid = farthest < kFarthest && abs(total.x) + abs(total.y) + abs(total.z) < 16.0 * kFarthest;
     float side = float(job.shift.w);
     vec3 from = max(floor(lowest - s.slack), 0.0), to = min(floor(highest + s.slack), side - 1.0);
-    if (!sound || any(lessThan(to, from))) return false;
+    if (!valid || any(lessThan(to, from))) return false;
     vec3 n = abs(cross(p1 - p0, p2 - p0));
     s.axis = n.z >= n.x && n.z >= n.y ? 2 : n.x >= n.y ? 0 : 1;
-    s.low = turned(ivec3(from), s.axis);
-    s.span = turned(ivec3(to), s.axis) - s.low;
-    s.p0 = turned(p0, s.axis) - vec3(s.low);
-    s.p1 = turned(p1, s.axis) - vec3(s.low);
-    s.p2 = turned(p2, s.axis) - vec3(s.low);
+    s.low = rotated(ivec3(from), s.axis);
+    s.span = rotated(ivec3(to), s.axis) - s.low;
+    s.p0 = rotated(p0, s.axis) - vec3(s.low);
+    s.p1 = rotated(p1, s.axis) - vec3(s.low);
+    s.p2 = rotated(p2, s.axis) - vec3(s.low);
     return true;
 }
 
-// Draws rows `first`, `first` + `every`, ...
+// Draws the rows `first`, `first` + `every`, ...
 void draw(VoxelJob job, Shape s, int first, int every) {
     bool thin = job.thin != 0u;
     Edge xy0 = edgeOf(s.p0.xy, s.p1.xy, s.p2.xy, s.slack, thin), xz0 = edgeOf(s.p0.xz, s.p1.xz, s.p2.xz, s.slack, thin), yz0 = edgeOf(s.p0.yz, s.p1.yz, s.p2.yz, s.slack, thin);
     Edge xy1 = edgeOf(s.p1.xy, s.p2.xy, s.p0.xy, s.slack, thin), xz1 = edgeOf(s.p1.xz, s.p2.xz, s.p0.xz, s.slack, thin), yz1 = edgeOf(s.p1.yz, s.p2.yz, s.p0.yz, s.slack, thin);
     Edge xy2 = edgeOf(s.p2.xy, s.p0.xy, s.p1.xy, s.slack, thin), xz2 = edgeOf(s.p2.xz, s.p0.xz, s.p1.xz, s.slack, thin), yz2 = edgeOf(s.p2.yz, s.p0.yz, s.p1.yz, s.slack, thin);
 
-    // Height of the plane over a column's middle, and how far from it a cell's middle may be. The thinner a triangle, the less
-    // its normal is known; what is left of one that is but a line, the edges decide.
+    // Height of the plane at the middle of a column, and the largest distance from it to the middle of an overlapping cell. The normal of a
+    // thin triangle is inaccurate, which widens the distance; a degenerate one is decided by the edge tests alone.
     vec3 n = cross(s.p1 - s.p0, s.p2 - s.p0), size = max(abs(s.p1 - s.p0), abs(s.p2 - s.p0));
     float depth = abs(n.z), longest = max(max(size.x, size.y), size.z);
-    bool known = depth > 1e-12;
-    vec2 slope = known ? -n.xy / n.z : vec2(0.0);
-    float reach = 0.5 + 0.5 * (thin ? 0.0 : abs(slope.x) + abs(slope.y)) + (known ? s.slack * (1.0 + 4.0 * longest / depth) : 1e9);
+    bool hasNormal = depth > 1e-12;
+    vec2 slope = hasNormal ? -n.xy / n.z : vec2(0.0);
+    float reach = 0.5 + 0.5 * (thin ? 0.0 : abs(slope.x) + abs(slope.y)) + (hasNormal ? s.slack * (1.0 + 4.0 * longest / depth) : 1e9);
     for (int i = first; i <= s.span.x; i += every) {
         float x = float(i);
         vec2 across = narrow(xy2, x, narrow(xy1, x, narrow(xy0, x, vec2(0.0, s.span.y))));
@@ -110,11 +110,11 @@ void draw(VoxelJob job, Shape s, int first, int every) {
             vec2 up = vec2(max(upright.x, ceil(height - reach)), min(upright.y, floor(height + reach)));
             up = narrow(yz2, y, narrow(yz1, y, narrow(yz0, y, up)));
             for (float z = up.x; z <= up.y; z += 1.0) {
-                uvec3 cell = uvec3(turnedBack(s.low + ivec3(x, y, z), s.axis));
+                uvec3 cell = uvec3(rotatedBack(s.low + ivec3(x, y, z), s.axis));
                 Volume v;
                 v.shift = job.shift;
                 uint word = wordOf(v, cell), bit = 1u << bitOf(v, cell);
-                if ((bits[word] & bit) == 0u) atomicOr(bits[word], bit);  // asked first: most cells are set many times
+                if ((bits[word] & bit) == 0u) atomicOr(bits[word], bit);  // the read avoids most atomics: cells are set many times
             }
         }
     }
@@ -127,7 +127,7 @@ void main() {
     uint triangle = gl_GlobalInvocationID.x;
     Shape s;
     if (triangle < job.triangles && shapeOf(job, triangle, s)) {
-        if ((s.span.x + 1) * (s.span.y + 1) <= kAlone) draw(job, s, 0, 1);
+        if ((s.span.x + 1) * (s.span.y + 1) <= kSmallColumns) draw(job, s, 0, 1);
         else large[atomicAdd(largeCount, 1u)] = triangle;
     }
     barrier();

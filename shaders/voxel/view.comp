@@ -1,4 +1,4 @@
-// The window of bits as a picture.
+// Debug view of the dense volume.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define VOLUME_BINDING 2

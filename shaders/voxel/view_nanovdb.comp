@@ -1,4 +1,4 @@
-// A NanoVDB grid as a picture.
+// Debug view of a NanoVDB volume.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define VOLUME_NANOVDB

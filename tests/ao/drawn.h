@@ -1,4 +1,4 @@
-// Accuracy of scenes drawn by our renderer, which has depth layers as stored frames have not, against stored references. Links obscura_render too.
+// Fixture: accuracy of scenes drawn by our renderer with depth layers, which stored frames lack. Links obscura_render.
 #pragma once
 
 #include "ao/oracle.h"
@@ -12,7 +12,7 @@ class DrawnOracleTest : public OracleTest {
 protected:
     using OracleTest::OracleTest;
 
-    // eA of the scene NAME.glb at its camera, against a channel of NAME.reference.exr.
+    // eA of the scene NAME.glb seen by its camera, against a channel of NAME.reference.exr.
     float drawn(const std::string& name, const ao::Values& values, const char* falloff, const std::string& channel) {
         const fs::path folder = this->folder();
         if (!fs::exists(folder / (name + ".glb"))) skip("no " + (folder / name).string() + ".glb; set OBSCURA_ORACLE to the stored references");
@@ -41,7 +41,7 @@ protected:
                 c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
             });
         gpu::Status status = gpu::Status::ok;
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph->execute(cmd); }), gpu::Status::ok);
+        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor->execute(*m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
         truth::Plane visibility(captured.visible().x, captured.visible().y);
         for (size_t i = 0; i < visibility.values.size(); ++i) visibility.values[i] = halfToFloat(reinterpret_cast<const uint16_t*>(back.mapped())[i]);

@@ -1,6 +1,7 @@
-// Interleaving: what the shared gather brings together, and that methods which share out their directions find what they find alone.
+// Interleaving: the gather pass, and methods whose directions are distributed over a tile against the same methods without interleaving.
 #include <bit>
 
+#include "ao/interleave.h"
 #include "ao/method_test.h"
 #include "ao/resolve_test.h"
 
@@ -21,33 +22,33 @@ protected:
     Plane run(const Frame& frame, uint32_t side, bool weighted = false) {
         return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
             if (!weighted) return m_gather.add(graph, inputs, source, side);
-            // Of every pixel weight w and obscurance 0.25: whatever the weights, a quarter is taken off what is open.
+            // Every pixel has obscurance 0.25 and some weight: visibility is reduced by a quarter, whatever the weights.
             gpu::Image image;
-            std::vector<uint32_t> parts;
+            std::vector<uint32_t> texels;
             for (uint32_t y = 0; y < kHeight; ++y)
                 for (uint32_t x = 0; x < kWidth; ++x) {
                     const float w = 0.5f + 0.125f * float((x + 3 * y) % 5);
-                    parts.push_back(half(0.25f * w) | uint32_t(half(w)) << 16);
+                    texels.push_back(half(0.25f * w) | uint32_t(half(w)) << 16);
                 }
-            return m_gather.add(graph, inputs, this->image(m_parts, VK_FORMAT_R16G16_SFLOAT, kWidth, kHeight, parts), side, source);
+            return m_gather.add(graph, inputs, this->image(m_input, VK_FORMAT_R16G16_SFLOAT, kWidth, kHeight, texels), side, source);
         });
     }
 
-    // Over a map that has a pixel for `scale` x `scale` of a picture's that is larger than the one here.
+    // Gathers on a map with one pixel for `scale` x `scale` pixels of a larger image.
     Plane runMap(const Frame& frame, uint32_t scale, uint32_t side) {
         return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
             std::vector<uint32_t> texels;
             for (uint32_t y = 0; y < kHeight; ++y)
                 for (uint32_t x = 0; x < kWidth; ++x) texels.insert(texels.end(), {std::bit_cast<uint32_t>(frame.depth(int(x), int(y))), packed(frame.normal)});
-            return m_gather.addMap(graph, inputs, source, image(m_parts, VK_FORMAT_R32G32_UINT, kWidth, kHeight, texels), scale, side);
+            return m_gather.addMap(graph, inputs, source, image(m_input, VK_FORMAT_R32G32_UINT, kWidth, kHeight, texels), scale, side);
         });
     }
 
     Gather m_gather;
-    gpu::Image m_parts;
+    gpu::Image m_input;
 };
 
-TEST_F(GatherTest, everyShareCountsOnceWhereverTheTileBegins) {
+TEST_F(GatherTest, everyShareIsWeightedOnceAtAnyTileOffset) {
     for (const uint32_t side : {2u, 3u, 4u}) {
         const int n = int(side);
         const Plane plane = run({.visibility = [n](int x, int y) { return float(x % n + n * (y % n)) / 16.0f; }}, side);
@@ -57,29 +58,29 @@ TEST_F(GatherTest, everyShareCountsOnceWhereverTheTileBegins) {
     }
 }
 
-TEST_F(GatherTest, staysInPlace) {  // a slope is left alone, also by tiles that have no middle
+TEST_F(GatherTest, linearRampIsUnchanged) {  // also for tiles of even side, which have no middle pixel
     for (const uint32_t side : {2u, 3u, 4u}) {
         const Plane plane = run({.visibility = [](int x, int) { return float(x) / 64.0f; }}, side);
         for (uint32_t x = 2; x < kWidth - 2; ++x) ASSERT_NEAR(at(plane, x, 10), float(x) / 64.0f, 0.001f) << side;
     }
 }
 
-TEST_F(GatherTest, surfacesShareNothing) {
+TEST_F(GatherTest, gatherStopsAtDepthEdges) {
     for (const uint32_t side : {2u, 3u, 4u}) {
         const Plane plane = run({.visibility = [](int x, int) { return x < 20 ? 0.0f : 1.0f; }, .depth = [](int x, int) { return x < 20 ? 2.0f : 2.2f; }}, side);
         for (uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(at(plane, x, 10), x < 20 ? 0.0f : 1.0f) << side << ": " << x;
     }
 }
 
-TEST_F(GatherTest, weightsAreThoseOfTheParts) {
+TEST_F(GatherTest, weightsOfSharesAreApplied) {
     for (const uint32_t side : {2u, 3u, 4u}) {
         const Plane plane = run({.visibility = [](int, int) { return 0.75f; }}, side, true);
         for (const float v : plane) ASSERT_NEAR(v, 0.5f, 0.001f) << side;
     }
 }
 
-// A plane at 45 degrees, whose depths are those of pixels as far apart as the map's are.
-TEST_F(GatherTest, aMapIsGatheredWhereItsPixelsAre) {
+// A plane at 45 degrees, with the depths of pixels as far apart as the map's pixels.
+TEST_F(GatherTest, mapPixelsUseTheirOwnPositions) {
     const float scale = 2.0f, slant = 0.70710678f;
     const auto depth = [&](int x, int) {  // z = 4 + eye x, eye x = h z
         const float h = kHorizontal * (float(kGuard) + (float(x) + 0.5f) * scale - 0.5f * float(kWidth + 2 * kGuard));
@@ -105,7 +106,7 @@ protected:
     InterleavedMethod() : MethodTest(GetParam()) {}
 };
 
-TEST_P(InterleavedMethod, findsWhatItFindsAlone) {
+TEST_P(InterleavedMethod, isNearTheUninterleavedResult) {
     Room room;
     room.wall = -5.0f;
     room.build();
@@ -120,7 +121,7 @@ TEST_P(InterleavedMethod, findsWhatItFindsAlone) {
         EXPECT_TRUE(m_passes.count("resolve.gather"));
         double apart = 0.0;
         for (size_t i = 0; i < alone.size(); ++i) apart += std::fabs(shared[i] - alone[i]);
-        const bool map = GetParam() == std::string("hybrid");  // is small here, and a share a ray or two
+        const bool map = GetParam() == std::string("hybrid");  // the map is small here, and a share has one or two rays
         EXPECT_NEAR(mean(shared), mean(alone), (map ? 0.12 : 0.07) * mean(alone)) << tile;
         EXPECT_LT(apart / double(alone.size()), map ? 0.02 : 0.008) << tile;
     }

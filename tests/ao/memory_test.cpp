@@ -1,13 +1,13 @@
-// Device memory through the door: the host's own pools, and what is told of it before and after.
+// Device memory through the API: allocation from host pools, memoryUse() before and after recording, 8-bit output.
 #include <map>
 
-#include "ao/door.h"
+#include "ao/host_context.h"
 #include "gpu/record.h"
 
 namespace obscura::ao {
 namespace {
 
-// A host that cuts blocks out of few large allocations, as engines do, and keeps account.
+// A host allocator that suballocates from a few large allocations and counts them.
 class Pools {
 public:
     explicit Pools(gpu::Device& device) : m_device(device) { device.vk().GetPhysicalDeviceMemoryProperties(device.physical(), &m_types); }
@@ -16,7 +16,7 @@ public:
     }
     MemoryCallbacks callbacks() { return {&Pools::allocate, &Pools::free, this}; }
 
-    uint64_t held = 0, live = 0, given = 0;  // bytes and blocks now, blocks ever
+    uint64_t allocatedBytes = 0, liveBlocks = 0, allocationCount = 0;  // now, now, in total
     uint64_t failAfter = ~0ull;
     bool misaligned = false, unmapped = false;
 
@@ -26,7 +26,7 @@ private:
 
     static VkResult allocate(void* user, const VkMemoryRequirements& needs, bool mapped, bool, MemoryBlock& block) {
         Pools& own = *static_cast<Pools*>(user);
-        if (own.given >= own.failAfter) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        if (own.allocationCount >= own.failAfter) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         uint32_t type = 0;
         while (!(needs.memoryTypeBits >> type & 1)) ++type;
         if (!own.m_pools.count(type)) {
@@ -41,20 +41,20 @@ private:
             own.m_pools[type] = pool;
         }
         Pool& pool = own.m_pools[type];
-        // Images and buffers a page apart, which is any device's granularity.
+        // Images and buffers lie a page apart, which satisfies bufferImageGranularity of any device.
         const uint64_t alignment = std::max<uint64_t>(needs.alignment, 65536), offset = (pool.used + alignment - 1) / alignment * alignment;
         if (offset + needs.size > kPool) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         pool.used = offset + needs.size;
         EXPECT_TRUE(!mapped || pool.mapped);
-        ++own.given, ++own.live;
-        own.held += needs.size;
+        ++own.allocationCount, ++own.liveBlocks;
+        own.allocatedBytes += needs.size;
         block = {pool.memory, offset + (own.misaligned ? 1 : 0), mapped && !own.unmapped ? pool.mapped + offset : nullptr, reinterpret_cast<void*>(needs.size)};
         return VK_SUCCESS;
     }
     static void free(void* user, const MemoryBlock& block) {
         Pools& own = *static_cast<Pools*>(user);
-        --own.live;
-        own.held -= reinterpret_cast<uint64_t>(block.token);
+        --own.liveBlocks;
+        own.allocatedBytes -= reinterpret_cast<uint64_t>(block.token);
     }
 
     gpu::Device& m_device;
@@ -62,16 +62,16 @@ private:
     std::map<uint32_t, Pool> m_pools;
 };
 
-class MemoryTest : public DoorTest {
+class MemoryTest : public ApiTest {
 protected:
-    // A context of its own in place of the fixture's.
+    // Replaces the fixture's context.
     void again(const DeviceDesc& d) {
         m_device.waitIdle();
         destroy(m_context);
         m_context = nullptr;
         EXPECT_EQ(create(d, &m_context), Status::ok);
     }
-    // Without a run: memory is taken when a frame is recorded.
+    // Records without submitting: memory is allocated when a frame is recorded.
     Output recorded(const Frame& f) {
         Output output;
         test::recordAndDrop(m_device, [&](VkCommandBuffer cmd) { output = record(m_context, cmd, f); });
@@ -79,7 +79,7 @@ protected:
     }
 };
 
-TEST_F(MemoryTest, comesFromTheHostsPools) {
+TEST_F(MemoryTest, comesFromHostPools) {
     const std::vector<float> own = pixels(once(frame()));
     Pools pools(m_device);
     DeviceDesc d = desc();
@@ -89,17 +89,17 @@ TEST_F(MemoryTest, comesFromTheHostsPools) {
     for (const MethodInfo* info : methods()) {
         ASSERT_EQ(setMethod(m_context, info->id, {}), Status::ok);
         ASSERT_EQ(once(frame()).status, Status::ok) << info->id;
-        EXPECT_EQ(pools.held, memoryUse(m_context)) << info->id;
+        EXPECT_EQ(pools.allocatedBytes, memoryUse(m_context)) << info->id;
     }
-    EXPECT_GT(pools.given, 10u);
+    EXPECT_GT(pools.allocationCount, 10u);
     m_device.waitIdle();
     destroy(m_context);
     m_context = nullptr;
-    EXPECT_EQ(pools.live, 0u);
-    EXPECT_EQ(pools.held, 0u);
+    EXPECT_EQ(pools.liveBlocks, 0u);
+    EXPECT_EQ(pools.allocatedBytes, 0u);
 }
 
-TEST_F(MemoryTest, thatIsRefusedOrWrongIsAStatusAndALine) {
+TEST_F(MemoryTest, failedOrInvalidAllocationGivesStatusAndLogLine) {
     Pools pools(m_device);
     DeviceDesc d = desc();
     d.memory = pools.callbacks();
@@ -109,7 +109,7 @@ TEST_F(MemoryTest, thatIsRefusedOrWrongIsAStatusAndALine) {
     EXPECT_TRUE(said("DeviceDesc::memory"));
     d.memory = pools.callbacks();
     again(d);
-    pools.failAfter = pools.given + 1;
+    pools.failAfter = pools.allocationCount + 1;
     EXPECT_EQ(once(frame()).status, Status::outOfMemory);
     pools.failAfter = ~0ull;
     pools.misaligned = true;
@@ -120,7 +120,7 @@ TEST_F(MemoryTest, thatIsRefusedOrWrongIsAStatusAndALine) {
     m_device.waitIdle();
     destroy(m_context);
     m_context = nullptr;
-    EXPECT_EQ(pools.live, 0u);
+    EXPECT_EQ(pools.liveBlocks, 0u);
     Pools blind(m_device);
     blind.unmapped = true;
     d.memory = blind.callbacks();
@@ -130,11 +130,11 @@ TEST_F(MemoryTest, thatIsRefusedOrWrongIsAStatusAndALine) {
     m_device.waitIdle();
     destroy(m_context);
     m_context = nullptr;
-    EXPECT_EQ(blind.live, 0u);
+    EXPECT_EQ(blind.liveBlocks, 0u);
 }
 
-// Every method, with a history and in its last preset without: foretold to the byte, and foretelling takes nothing.
-TEST_F(MemoryTest, isForetoldToTheByte) {
+// Every method, with history, and in its last preset without: the prediction is exact to the byte and allocates nothing.
+TEST_F(MemoryTest, predictionIsExactToTheByte) {
     const Setting history{"temporal", 0.9f};
     size_t cases = 0;
     for (const MethodInfo* info : methods())
@@ -153,11 +153,11 @@ TEST_F(MemoryTest, isForetoldToTheByte) {
             Frame plan = f;
             plan.depth.image = plan.normals.image = plan.motion.image = VK_NULL_HANDLE;
             plan.depth.view = plan.normals.view = plan.motion.view = VK_NULL_HANDLE;
-            const uint64_t before = memoryUse(m_context), told = memoryUse(m_context, plan);
+            const uint64_t before = memoryUse(m_context), predicted = memoryUse(m_context, plan);
             EXPECT_EQ(memoryUse(m_context), before);
             for (int i = 0; i < 3; ++i, ++f.index) ASSERT_EQ(recorded(f).status, Status::ok) << info->id;
-            EXPECT_EQ(told, memoryUse(m_context)) << info->id << ":" << preset.id << (temporal ? " with a history" : "");
-            EXPECT_EQ(memoryUse(m_context, plan), told) << info->id;
+            EXPECT_EQ(predicted, memoryUse(m_context)) << info->id << ":" << preset.id << (temporal ? " with a history" : "");
+            EXPECT_EQ(memoryUse(m_context, plan), predicted) << info->id;
             ++cases;
         }
     EXPECT_EQ(cases, 2 * methods().size() - 1);
@@ -168,8 +168,8 @@ TEST_F(MemoryTest, isForetoldToTheByte) {
     EXPECT_EQ(memoryUse(nullptr, f), 0u);
 }
 
-// Asking between two frames leaves the second what it would have been.
-TEST_F(MemoryTest, foretellingLeavesNoTrace) {
+// memoryUse(frame) between two frames does not change the second.
+TEST_F(MemoryTest, predictionDoesNotChangeLaterFrames) {
     const Setting history{"temporal", 0.9f};
     MethodSettings settings;
     settings.settings = {&history, 1};
@@ -191,7 +191,7 @@ TEST_F(MemoryTest, foretellingLeavesNoTrace) {
     for (const char* method : {"hbao", "far_field"}) EXPECT_EQ(second(method, true), second(method, false)) << method;
 }
 
-TEST_F(MemoryTest, eightBitsAreTheSixteenRounded) {
+TEST_F(MemoryTest, eightBitOutputIsTheRoundedHalfFloat) {
     for (const char* method : {"hbao", "far_field", "none"}) {
         again(desc());
         ASSERT_EQ(setMethod(m_context, method, {}), Status::ok);

@@ -1,4 +1,4 @@
-// Runs one method on a frame made by hand or captured, under validation. A suite derives from MethodTest and says which.
+// Fixture: runs one method on an analytic or captured frame, under validation. A suite derives from MethodTest and names the method.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ao/room.h"
+#include "graph/executor.h"
 
 namespace obscura::test {
 
@@ -21,11 +22,13 @@ protected:
         GpuTest::SetUp();
         m_shaders.add(ao::shaders());
         m_graph = std::make_unique<graph::Graph>(m_device);
+        m_executor = std::make_unique<graph::Executor>(m_device);
         m_library = std::make_unique<ao::Library>(m_device, m_shaders);
     }
     void TearDown() override {
         m_library.reset();
         m_graph.reset();
+        m_executor.reset();
         GpuTest::TearDown();
     }
 
@@ -42,7 +45,7 @@ protected:
 
     Picture run(const Room& room, const ao::Values& values, const char* falloff) { return run(room, room.frame(), values, falloff); }
 
-    // With the room's images; `frame` says how they are to be read.
+    // With the room's images; `frame` describes their formats and spaces.
     Picture run(const Room& room, const ao::Frame& frame, const ao::Values& values, const char* falloff) {
         const gpu::Image depth = room.image(m_device, false), normals = room.image(m_device, true);
         ao::Falloff rho;
@@ -61,7 +64,7 @@ protected:
         if (!room.thickness.empty()) sources.layers.thickness = import("thickness", thickness = room.layer(m_device, false));
         if (!room.second.empty()) sources.layers.second = import("second layer", second = room.layer(m_device, true));
         if (!room.bits.empty()) sources.volume = m_graph->upload("bits", room.bits.data(), room.bits.size() * sizeof(uint32_t));
-        const graph::ImageId visibility = m_library->add(*m_graph, frame, sources, rho, values);
+        const graph::ImageId visibility = m_library->add(*m_graph, frame, sources, rho, values).visibility;
         EXPECT_TRUE(bool(visibility));
         if (!visibility) return {};
         const uint32_t width = frame.size.width - 2 * frame.guard.width, height = frame.size.height - 2 * frame.guard.height;
@@ -86,7 +89,7 @@ protected:
         m_passes.clear();
         for (const auto& written : m_graph->written()) m_passes.insert(written.pass);
         gpu::Status status = gpu::Status::ok;
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph->execute(cmd); }), gpu::Status::ok);
+        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor->execute(*m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
         if (probed) {
             m_probed = {m_graph->desc(probed).width, m_graph->desc(probed).height, m_graph->desc(probed).format == VK_FORMAT_R32G32_UINT ? 2u : 1u, {}};
@@ -104,9 +107,10 @@ protected:
     gpu::Device& m_device = device();
     gpu::ShaderLibrary m_shaders;
     std::unique_ptr<graph::Graph> m_graph;
+    std::unique_ptr<graph::Executor> m_executor;
     std::unique_ptr<ao::Library> m_library;
     std::set<std::string> m_passes;  // of the last run
-    std::string m_probe;             // an image, of one or two 32-bit words a texel, that a pass writes: run() keeps it in m_probed
+    std::string m_probe;             // name of an image with one or two 32-bit words a texel that a pass writes; run() reads it back into m_probed
     struct {
         uint32_t width = 0, height = 0, each = 1;
         std::vector<uint32_t> words;

@@ -1,5 +1,5 @@
-// Accuracy on the stored captured frames, against references that were ray-traced through their geometry. The folder is
-// found beside the project or named by OBSCURA_ORACLE; without it these tests are skipped. Links Obscura::truth and wants
+// Fixture: accuracy on stored captured frames, against references ray-traced in their geometry. The folder lies beside the
+// project or is named by OBSCURA_ORACLE; without it these tests are skipped. Links Obscura::truth and needs
 // OBSCURA_SOURCE_DIR.
 #pragma once
 
@@ -23,7 +23,7 @@ protected:
         return named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
     }
 
-    // A stored frame as a room's images; `frame` says how they are to be read.
+    // A stored frame as a room's images; `frame` describes their formats and spaces.
     Room captured(const std::string& name, ao::Frame& frame) const {
         const fs::path folder = this->folder();
         if (!fs::exists(folder / (name + ".json"))) skip("no " + (folder / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
@@ -49,7 +49,7 @@ protected:
         visibility.values = run(room, frame, values, falloff);
         truth::Plane reference = truth::readExr(folder() / (name + ".reference.exr")).plane(channel);
         for (truth::Plane* plane : {&visibility, &reference})
-            for (float& v : plane->values) v = 1.0f - v;  // both come as obscurance
+            for (float& v : plane->values) v = 1.0f - v;  // both are obscurance
         const truth::Metrics metrics = truth::compare(visibility, reference, truth::Mask(captured.visibleMask()));
         printf("%-9s %s %s: eA %.4f, bias %+.4f, within 0.05 %.3f, SSIM %.3f\n", name.c_str(), m_method, channel.c_str(), double(metrics.raw.eA), double(metrics.raw.bias),
                double(metrics.raw.e5), double(metrics.ssim));

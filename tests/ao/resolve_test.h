@@ -1,28 +1,29 @@
-// One shared pass on surfaces made by hand.
+// Fixture: runs one shared pass (gather or temporal) on analytic surfaces.
 #pragma once
 
 #include <cmath>
 #include <functional>
 
-#include "ao/resolve.h"
+#include "ao/method.h"
 #include "ao/room.h"
+#include "graph/executor.h"
 
 namespace obscura::ao {
 
 using Plane = std::vector<float>;
 inline constexpr uint32_t kWidth = 40, kHeight = 24, kGuard = 2;
-inline constexpr float kHorizontal = 0.05f;  // eye metres a pixel, per metre of depth
+inline constexpr float kHorizontal = 0.05f;  // eye-space metres per px and metre of depth
 
 class ResolveTest : public test::GpuTest {
 protected:
     using Filter = std::function<graph::ImageId(graph::Graph& graph, const Inputs& inputs, graph::ImageId source)>;
-    // One frame; images are of the visible part, the guard band repeats the edge.
+    // One frame. Images have the visible size; the guard band repeats their edge.
     struct Frame {
         std::function<float(int x, int y)> visibility = [](int, int) { return 1.0f; };
         std::function<float(int x, int y)> depth = [](int, int) { return 2.0f; };
         std::array<float, 2> motion{0.0f, 0.0f};
         std::array<float, 3> normal{0.0f, 0.0f, 1.0f};
-        float advanced = 0.0f;  // metres the camera went forward since last frame
+        float advanced = 0.0f;  // metres that the camera moved forward since last frame
         bool hasMotion = true;
     };
 
@@ -75,7 +76,7 @@ protected:
                 c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(result), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
             });
         gpu::Status status = gpu::Status::ok;
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph.execute(cmd); }), gpu::Status::ok);
+        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
         std::vector<uint16_t> words(kWidth * kHeight);
         std::memcpy(words.data(), back.mapped(), words.size() * 2);
@@ -84,7 +85,7 @@ protected:
         return plane;
     }
 
-    // Never more than a thousandth from the float, which is what a half keeps of visibility.
+    // Within 0.001 of the float: the precision of visibility in half floats.
     static uint16_t half(float v) {
         if (v <= 0.0f) return 0;
         int exponent = 0;
@@ -110,6 +111,7 @@ protected:
     gpu::Device& m_device = test::device();
     gpu::ShaderLibrary m_shaders;
     graph::Graph m_graph{m_device};
+    graph::Executor m_executor{m_device};
     bool m_passedThrough = false;
 };
 

@@ -17,10 +17,10 @@ struct Room {
     uint32_t width = 160, height = 96, guard = 8;
     float floor = -1.6f;           // y, eye space
     float wall = 0.0f;             // z of a wall that faces the camera; 0: none
-    std::vector<float> depth;      // linear, 1e4 where nothing is
+    std::vector<float> depth;      // linear, 1e4 for sky
     std::vector<float> normals;    // xyz0
-    std::vector<float> thickness;  // depth layers, where there are any: see ao::DepthLayers
-    std::vector<float> second;     // depth and thickness, of every pixel or every other one
+    std::vector<float> thickness;  // depth layers, optional: see ao::DepthLayers
+    std::vector<float> second;     // second layer: depth and thickness, of every pixel or every second one
     float projection[16] = {};
     ao::Volume volume;             // around the camera, its buffer left out
     std::vector<uint32_t> bits;    // of the volume: every cell that the floor's or the wall's plane touches
@@ -47,7 +47,7 @@ struct Room {
             }
         }
     }
-    // The window's middle is the eye; `tilt` turns its axes about x, radians. Cells before `origin` do not change the world they hold.
+    // The eye is at the window's middle; `tilt` rotates its axes about x, radians. `origin` changes addresses, not the voxelized world.
     void voxelize(uint32_t cells, float cellSize, float tilt = 0.0f, std::array<int, 3> origin = {}) {
         const float c = std::cos(tilt), s = std::sin(tilt), half = 0.5f * float(cells), scale = 1.0f / cellSize;
         volume = {};
@@ -56,7 +56,7 @@ struct Room {
         std::copy(std::begin(columns), std::end(columns), volume.cellFromEye);
         std::copy(origin.begin(), origin.end(), volume.origin);
         bits.assign(size_t(cells) * cells * cells / 32, 0);
-        // The plane n . cell = d, in cells, touches those within half of |n.x| + |n.y| + |n.z| of their middle.
+        // The plane n . cell = d, in cells, touches the cells whose middle is within half of |n.x| + |n.y| + |n.z| of it.
         const auto touches = [&](float ny, float nz, float d, float y, float z) {
             return std::abs(ny * (y + 0.5f - half) + nz * (z + 0.5f - half) - d) <= 0.5f * (std::abs(ny) + std::abs(nz)) + 1e-4f;
         };

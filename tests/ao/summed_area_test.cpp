@@ -1,4 +1,4 @@
-// Summed-area tables against sums made one after the other, at sizes that divide by nothing.
+// Summed-area tables against sequential sums on the CPU, at odd and prime sizes.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -11,6 +11,7 @@
 #include "gpu/test_device.h"
 #include "gpu/test_shaders.h"
 #include "gpu/vulkan_counter.h"
+#include "graph/executor.h"
 
 namespace obscura::test {
 namespace {
@@ -19,7 +20,7 @@ using shared::uvec2;
 using Texel = std::array<uint32_t, 4>;
 using Layers = std::vector<ao::SummedArea::Layer>;
 
-class SummedAreaTest : public GpuTest, public testing::WithParamInterface<uint32_t> {  // parts a line is cut into
+class SummedAreaTest : public GpuTest, public testing::WithParamInterface<uint32_t> {  // chunks that a line is split into
 protected:
     void SetUp() override {
         GpuTest::SetUp();
@@ -35,13 +36,13 @@ protected:
         return result;
     }
 
-    // The table of random texels, or nothing where it is not to the bit what it should be.
+    // Compares the table of random texels bit by bit with sums on the CPU.
     void check(uvec2 size, const Layers& layers) {
         std::mt19937 random(size.x * 31 + size.y);
         std::vector<Texel> texels(size_t(size.x) * size.y);
         std::vector<uint32_t> codes(texels.size());
         for (Texel& texel : texels)
-            for (uint32_t& channel : texel) channel = random();  // wraps around all the time
+            for (uint32_t& channel : texel) channel = random();  // sums overflow often, which must be harmless
         for (uint32_t& code : codes) code = random() % 4;
 
         const gpu::Buffer from = buffer(texels.size() * 16, texels.data()), by = buffer(codes.size() * 4, codes.data());
@@ -55,7 +56,7 @@ protected:
         if (layers.empty()) m_sums.add(m_graph, "sums", source, table, size);
         else m_sums.add(m_graph, "sums", source, code, table, size, layers);
         gpu::Status status = gpu::Status::ok;
-        ASSERT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph.execute(cmd); }), gpu::Status::ok);
+        ASSERT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); }), gpu::Status::ok);
         ASSERT_EQ(status, gpu::Status::ok);
 
         const Layers wanted = layers.empty() ? Layers{{0, 0}} : layers;
@@ -80,33 +81,34 @@ protected:
     gpu::Device& m_device = device();
     gpu::ShaderLibrary m_shaders;
     graph::Graph m_graph{m_device};
+    graph::Executor m_executor{m_device};
     ao::SummedArea m_sums;
 };
 
 INSTANTIATE_TEST_SUITE_P(Parts, SummedAreaTest, testing::Values(1, 5, 16));
 
-TEST_P(SummedAreaTest, isTheSumOfWhatIsLeftAndAboveAtAnySize) {
+TEST_P(SummedAreaTest, entryIsTheSumLeftAndAboveAtAnySize) {
     for (const uvec2 size : {uvec2{1, 1}, {7, 5}, {16, 16}, {17, 129}, {100, 63}, {513, 31}, {250, 251}}) check(size, {});
 }
-TEST_P(SummedAreaTest, ofOneRowAndOfOneColumn) {
+TEST_P(SummedAreaTest, oneRowOrColumnIsSummed) {
     for (const uint32_t length : {1u, 2u, 15u, 1000u, 8192u}) {
         check({length, 1}, {});
         check({1, length}, {});
     }
 }
-TEST_P(SummedAreaTest, ofVeryLongLines) {
+TEST_P(SummedAreaTest, longLinesAreSummed) {
     check({8192, 19}, {});
     check({19, 8192}, {});
 }
-TEST_P(SummedAreaTest, layersSumTheirOwnTexels) {
+TEST_P(SummedAreaTest, layersAreIndependent) {
     check({61, 47}, {{3, 3}, {3, 2}});
     check({61, 47}, {{1, 1}});
     check({33, 8}, {{3, 0}, {3, 1}, {3, 2}, {3, 3}});
 }
 
-// What a table costs, counted: two dispatches, of which each goes once over what it reads and writes; a copy of the table reads and writes
-// as much as either. The times that go with it: passes "statistical.root rows" and "... columns" of obscura-bench --method statistical.
-TEST_P(SummedAreaTest, costsTwoPassesOverTheTable) {
+// The work of a table, counted: two dispatches, each of which reads its input once and writes its output once, like a copy of the table.
+// For times see passes "statistical.root rows" and "... columns" of obscura-bench --method statistical.
+TEST_P(SummedAreaTest, twoDispatchesPassOverTheTable) {
     VulkanCounter counter(m_device);
     const uint32_t lines = 8;  // a workgroup's, of sum_rows.comp and sum_columns.comp
     for (const uvec2 size : {uvec2{640, 360}, uvec2{1152, 648}, uvec2{100, 63}}) {
@@ -121,8 +123,8 @@ TEST_P(SummedAreaTest, costsTwoPassesOverTheTable) {
     }
 }
 
-// Of shared/scan.glsl, which both passes run: what an invocation loads and stores, counted in the shader itself.
-TEST_P(SummedAreaTest, aLineIsReadOnceOrTwiceAndWrittenOnce) {
+// Loads and stores of an invocation in shared/scan.glsl, which both passes run, counted in the shader.
+TEST_P(SummedAreaTest, lineIsReadAtMostTwiceAndWrittenOnce) {
     TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "count.comp", root = std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders";
     std::ofstream(file) << R"(#version 460
@@ -153,7 +155,7 @@ void main() { scanLines(gl_GlobalInvocationID.x, count, gl_GlobalInvocationID.x 
         const graph::BufferId target = m_graph.import("counts", counts, graph::Graph::Shared::written);
         m_graph.pass("count", program).write(target).constants(uvec2{size.y, size.x}).dispatch(size.y);
         gpu::Status status = gpu::Status::ok;
-        ASSERT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_graph.execute(cmd); }), gpu::Status::ok);
+        ASSERT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); }), gpu::Status::ok);
         ASSERT_EQ(status, gpu::Status::ok);
         uint32_t loads[2];  // and stores
         std::memcpy(loads, counts.mapped(), 8);

@@ -1,5 +1,7 @@
-// The shared temporal pass on a wall made by hand: what it averages, follows, forgets and refuses.
+// The shared temporal pass on an analytic wall: averaging, reprojection, disocclusion, history clamping.
 #include <random>
+
+#include <utility>
 
 #include "ao/resolve_test.h"
 
@@ -19,11 +21,12 @@ protected:
     }
     Plane run(const Frame& frame, const TemporalSettings& settings) {
         return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
-            return m_temporal.add(graph, inputs, source, settings, "temporal");
+            return m_temporal.add(graph, inputs, source, settings, std::exchange(m_discard, false), "temporal");
         });
     }
 
     Temporal m_temporal;
+    bool m_discard = false;  // history, in the next frame
 };
 
 TemporalSettings papers(float k) { return {.history = k, .clip = 0.0f}; }
@@ -31,7 +34,7 @@ std::function<float(int, int)> flat(float v) {
     return [v](int, int) { return v; };
 }
 
-TEST_F(TemporalTest, halvesEachFrameWithAHistoryOfOneHalf) {
+TEST_F(TemporalTest, historyOfOneHalfHalvesTheDifferenceEachFrame) {
     run({.visibility = flat(1.0f)}, papers(0.5f));
     float expected = 1.0f;
     for (int i = 0; i < 5; ++i) {
@@ -40,13 +43,13 @@ TEST_F(TemporalTest, halvesEachFrameWithAHistoryOfOneHalf) {
     }
 }
 
-TEST_F(TemporalTest, averagesEvenlyUntilItsLengthIsReached) {
-    for (const float v : run({.visibility = flat(0.9f)}, papers(0.9f))) ASSERT_NEAR(v, 0.9f, 1e-3f);  // nothing before
+TEST_F(TemporalTest, averagesEvenlyUntilItsFullLength) {
+    for (const float v : run({.visibility = flat(0.9f)}, papers(0.9f))) ASSERT_NEAR(v, 0.9f, 1e-3f);  // no history yet
     for (const float v : run({.visibility = flat(0.3f)}, papers(0.9f))) ASSERT_NEAR(v, 0.6f, 1e-3f);
     for (const float v : run({.visibility = flat(0.0f)}, papers(0.9f))) ASSERT_NEAR(v, 0.4f, 1e-3f);
 }
 
-TEST_F(TemporalTest, takesNoiseAndLeavesTheMean) {
+TEST_F(TemporalTest, removesNoiseAndKeepsTheMean) {
     std::mt19937 random(7);
     std::normal_distribution<float> noise(0.6f, 0.05f);
     Plane last;
@@ -58,19 +61,19 @@ TEST_F(TemporalTest, takesNoiseAndLeavesTheMean) {
     EXPECT_LT(deviation, 0.05 / 3.0);
 }
 
-// The edge of a shadow that moved is no noise to hide in: the past of where it lay is drawn in.
-TEST_F(TemporalTest, aSlopeIsNoNoise) {
+// A gradient of visibility must not widen the clamp: history from before it moved is clamped.
+TEST_F(TemporalTest, gradientDoesNotWidenTheClamp) {
     const auto shadow = [](float from) { return [=](int x, int) { return from + float(x) / 64.0f; }; };
     for (int i = 0; i < 10; ++i) run({.visibility = shadow(0.3f)}, {});
     const Plane last = run({.visibility = shadow(0.1f)}, {});
     for (uint32_t x = 3; x < kWidth - 3; ++x) ASSERT_NEAR(at(last, x, 12), 0.1f + float(x) / 64.0f, 0.012f) << x;
 }
 
-// Errors that change all over as a surface goes over the screen have no spread in space, nor has what a surface of one pixel samples anew
-// every frame. What rests is believed only what goes to and fro.
-TEST_F(TemporalTest, aPixelMayDifferByWhatItKeepsDifferingBy) {
+// Uniform noise over time has no spread in space, so the clamp also uses each pixel's deviation over time: for moving pixels all of it, for
+// resting pixels only changes that alternate in sign.
+TEST_F(TemporalTest, deviationOverTimeWidensTheClamp) {
     const auto swing = [&](float pixelsPerFrame, int from, int end) {
-        m_temporal.reset();
+        m_discard = true;
         float most = 0.0f;
         for (int i = 0; i < end; ++i) {
             const Plane plane = run({.visibility = flat(i % 2 ? 0.65f : 0.55f), .motion = {pixelsPerFrame, 0.0f}}, {});
@@ -82,18 +85,18 @@ TEST_F(TemporalTest, aPixelMayDifferByWhatItKeepsDifferingBy) {
     EXPECT_LT(swing(0.0f, 30, 40), 0.015f);
 }
 
-// A shadow that comes for long goes as fast as any: changes in one direction are none that a resting pixel keeps.
-TEST_F(TemporalTest, whatGoesInOneDirectionIsNoNoise) {
+// A shadow that grew slowly vanishes as fast as any other: changes of one sign do not widen the clamp of a resting pixel.
+TEST_F(TemporalTest, changesOfOneSignDoNotWidenTheClamp) {
     for (int i = 0; i < 20; ++i) run({.visibility = flat(0.9f - 0.03f * float(i))}, {});
     Plane last;
     for (int i = 0; i < 3; ++i) last = run({.visibility = flat(0.9f)}, {});
     for (const float v : last) ASSERT_NEAR(v, 0.9f, 0.06f);
 }
 
-// But by nothing that comes once: after calm frames a shadow goes with what threw it, the camera moving or not.
-TEST_F(TemporalTest, aShadowGoes) {
+// A single change is not noise: after steady frames a shadow vanishes together with its occluder, with the camera moving or at rest.
+TEST_F(TemporalTest, shadowVanishesWithItsOccluder) {
     for (const float speed : {0.5f, 0.0f}) {
-        m_temporal.reset();
+        m_discard = true;
         for (int i = 0; i < 20; ++i) run({.visibility = flat(0.3f), .motion = {speed, 0.0f}}, {});
         run({.visibility = flat(0.9f), .motion = {speed, 0.0f}}, {});
         Plane last;
@@ -102,28 +105,28 @@ TEST_F(TemporalTest, aShadowGoes) {
     }
 }
 
-// A slow average of 16-bit floats would stand still away from its goal.
-TEST_F(TemporalTest, reachesTheValueItIsFed) {
+// A slow running average in 16-bit floats would stop before it reaches its input.
+TEST_F(TemporalTest, convergesToItsInput) {
     run({.visibility = flat(0.5f)}, papers(0.97f));
     Plane last;
     for (int i = 0; i < 200; ++i) last = run({.visibility = flat(0.75f)}, papers(0.97f));
     for (const float v : last) ASSERT_NEAR(v, 0.75f, 0.002f);
 }
 
-TEST_F(TemporalTest, followsMotionBetweenPixels) {
-    // A ramp that goes right by 1.5 pixels a frame: the past is 1.5 to the left.
+TEST_F(TemporalTest, reprojectsBySubpixelMotion) {
+    // A ramp that moves right by 1.5 px a frame: its history is 1.5 px to the left.
     const auto ramp = [](int frame) { return [=](int x, int) { return 0.2f + 0.01f * (float(x) - 1.5f * float(frame)); }; };
     Plane last;
     for (int i = 0; i < 6; ++i) last = run({.visibility = ramp(i), .motion = {-1.5f, 0.0f}}, papers(0.9f));
     for (uint32_t x = 10; x < kWidth; ++x) ASSERT_NEAR(at(last, x, 12), ramp(5)(int(x), 12), 1.5e-3f) << x;
-    for (int i = 0; i < 6; ++i) last = run({.visibility = ramp(i)}, papers(0.9f));  // told that nothing moves, it lags
+    for (int i = 0; i < 6; ++i) last = run({.visibility = ramp(i)}, papers(0.9f));  // with motion of zero, it lags
     EXPECT_GT(std::fabs(at(last, 20, 12) - ramp(5)(20, 12)), 0.015f);
 }
 
-TEST_F(TemporalTest, startsAnewOnWhatWasHidden) {
+TEST_F(TemporalTest, discardsHistoryAtDisocclusions) {
     const auto wall = [](int edge) { return [=](int x, int) { return x < edge ? 1.0f : 2.0f; }; };
     for (int i = 0; i < 4; ++i) run({.visibility = flat(0.2f), .depth = wall(20)}, papers(0.9f));
-    const Plane last = run({.visibility = flat(0.8f), .depth = wall(10)}, papers(0.9f));  // 10..19: the far wall comes out
+    const Plane last = run({.visibility = flat(0.8f), .depth = wall(10)}, papers(0.9f));  // 10..19: the far wall is disoccluded
     for (uint32_t y = 0; y < kHeight; ++y)
         for (uint32_t x = 0; x < kWidth; ++x) {
             if (x >= 10 && x < 20) ASSERT_NEAR(at(last, x, y), 0.8f, 1e-3f) << x;
@@ -131,34 +134,34 @@ TEST_F(TemporalTest, startsAnewOnWhatWasHidden) {
         }
 }
 
-TEST_F(TemporalTest, startsAnewWhereTheSurfaceTurned) {
+TEST_F(TemporalTest, discardsHistoryWhereTheNormalChanges) {
     run({.visibility = flat(0.2f)}, papers(0.9f));
     for (const float v : run({.visibility = flat(0.8f), .normal = {0.8f, 0.0f, 0.6f}}, papers(0.9f))) ASSERT_NEAR(v, 0.8f, 1e-3f);
 }
 
-TEST_F(TemporalTest, startsAnewWhereThePastLiesOutsideThePicture) {
+TEST_F(TemporalTest, discardsHistoryOutsideTheImage) {
     run({.visibility = flat(0.2f)}, papers(0.9f));
     const Plane last = run({.visibility = flat(0.8f), .motion = {5.0f, 0.0f}}, papers(0.9f));
     EXPECT_NEAR(at(last, kWidth - 3, 5), 0.8f, 1e-3f);
     EXPECT_NEAR(at(last, kWidth - 8, 5), 0.5f, 1e-3f);
 }
 
-// A camera that goes towards a wall sees other depths of the same surface; told where it came from it keeps the past.
-TEST_F(TemporalTest, knowsTheCameraCameNearer) {
-    const auto go = [&](float told) {
-        m_temporal.reset();
+// A camera that moves towards a wall sees the same surface at smaller depths; the camera's motion keeps its history valid.
+TEST_F(TemporalTest, keepsHistoryWhenTheCameraMovesForward) {
+    const auto afterMoving = [&](float metres) {
+        m_discard = true;
         run({.visibility = flat(0.2f)}, papers(0.9f));
-        return at(run({.visibility = flat(0.8f), .depth = flat(1.8f), .advanced = told}, papers(0.9f)), kWidth / 2, kHeight / 2);
+        return at(run({.visibility = flat(0.8f), .depth = flat(1.8f), .advanced = metres}, papers(0.9f)), kWidth / 2, kHeight / 2);
     };
-    EXPECT_NEAR(go(0.2f), 0.5f, 1e-3f);
-    EXPECT_NEAR(go(0.0f), 0.8f, 1e-3f);
+    EXPECT_NEAR(afterMoving(0.2f), 0.5f, 1e-3f);
+    EXPECT_NEAR(afterMoving(0.0f), 0.8f, 1e-3f);
 }
 
-// The floor did not move, the foot above it did.
-TEST_F(TemporalTest, forgetsTheShadowOfWhatWentAway) {
+// The floor rests, the occluder above it moves.
+TEST_F(TemporalTest, discardsTheShadowOfAMovedOccluder) {
     const auto foot = [](int x, int y) { return x >= 10 && x < 30 && y >= 6 && y < 18 ? 0.3f : 1.0f; };
     const auto framesToClear = [&](const TemporalSettings& settings) {
-        m_temporal.reset();
+        m_discard = true;
         for (int i = 0; i < 20; ++i) run({.visibility = foot}, settings);
         for (int i = 1; i < 60; ++i) {
             float worst = 0.0f;
@@ -171,13 +174,13 @@ TEST_F(TemporalTest, forgetsTheShadowOfWhatWentAway) {
     EXPECT_GT(framesToClear(papers(0.9f)), 15);
 }
 
-TEST_F(TemporalTest, aResetForgetsEverything) {
+TEST_F(TemporalTest, resetDiscardsAllHistory) {
     for (int i = 0; i < 4; ++i) run({.visibility = flat(0.2f)}, papers(0.9f));
-    m_temporal.reset();
+    m_discard = true;
     for (const float v : run({.visibility = flat(0.8f)}, papers(0.9f))) ASSERT_NEAR(v, 0.8f, 1e-3f);
 }
 
-TEST_F(TemporalTest, withoutMotionOrHistoryNothingIsAdded) {
+TEST_F(TemporalTest, withoutMotionOrHistoryNoPassIsAdded) {
     run({.hasMotion = false}, {});
     EXPECT_TRUE(m_passedThrough);
     run({}, {.history = 0.0f});
@@ -186,10 +189,10 @@ TEST_F(TemporalTest, withoutMotionOrHistoryNothingIsAdded) {
     EXPECT_FALSE(m_passedThrough);
 }
 
-TEST_F(TemporalTest, theSkyStaysAsItCame) {
+TEST_F(TemporalTest, skyIsUnchanged) {
     run({.visibility = flat(0.2f), .depth = flat(5000.0f)}, papers(0.9f));
     for (const float v : run({.visibility = flat(1.0f), .depth = flat(5000.0f)}, papers(0.9f))) ASSERT_EQ(v, 1.0f);
-    // And is no past of what comes before it.
+    // Sky is not accepted as history of a surface in front of it.
     for (const float v : run({.visibility = flat(0.5f)}, papers(0.9f))) ASSERT_NEAR(v, 0.5f, 1e-3f);
 }
 

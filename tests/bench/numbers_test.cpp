@@ -1,4 +1,4 @@
-// Fronts, exponents, comparisons, tables and lists of settings, on rows made up for it.
+// Pareto fronts, scaling exponents, comparisons, tables and lists of settings, on synthetic rows.
 #include <cmath>
 #include <fstream>
 
@@ -15,7 +15,7 @@
 namespace obscura::bench {
 namespace {
 
-TEST(Bench, resultsSurviveTheirFile) {
+TEST(Bench, resultsRoundTripThroughTheirFile) {
     const Results written = results({row("hbao", "steps=4", 2.5, 0.05, true), row("layered", "", 4.0, 0.03)});
     const auto file = std::filesystem::temp_directory_path() / "obscura-bench-test.json";
     std::ofstream(file) << jsonText(written);
@@ -26,7 +26,7 @@ TEST(Bench, resultsSurviveTheirFile) {
     std::filesystem::remove(file);
 }
 
-TEST(Bench, frontIsWhatNoOtherBeats) {
+TEST(Bench, frontHoldsUndominatedRows) {
     const Results r = results({row("slow", "", 9.0, 0.020), row("quick", "", 1.0, 0.080), row("worse", "", 5.0, 0.060), row("middle", "", 4.0, 0.040), row("none", "", 0.01, 0.3)});
     const std::vector<Front> list = fronts(r);
     ASSERT_EQ(list.size(), 1u);
@@ -34,8 +34,8 @@ TEST(Bench, frontIsWhatNoOtherBeats) {
     EXPECT_FALSE(list[0].both);
 }
 
-TEST(Bench, gapsAreTheBudgetsAtWhichAYardstickIsAhead) {
-    // A yardstick at 1 ms before any of ours, ours from 2 ms on, the yardstick again from 6 ms, ours from 8 ms.
+TEST(Bench, gapsAreBudgetsWhereABaselineLeads) {
+    // A baseline method at 1 ms before any of ours, ours from 2 ms on, the baseline again from 6 ms, ours from 8 ms.
     const Results r = results({row("yard", "a", 1.0, 0.08, true), row("ours", "a", 2.0, 0.05), row("yard", "b", 6.0, 0.04, true), row("ours", "b", 8.0, 0.03)});
     const std::vector<Front> list = fronts(r);
     ASSERT_EQ(list[0].gaps.size(), 2u);
@@ -50,7 +50,7 @@ TEST(Bench, gapsAreTheBudgetsAtWhichAYardstickIsAhead) {
     EXPECT_TRUE(std::isinf(fronts(results({row("ours", "", 1.0, 0.05), row("yard", "", 2.0, 0.04, true)}))[0].gaps[0].to));
 }
 
-TEST(Bench, exponentsAreThoseOfTheRows) {
+TEST(Bench, exponentsMatchTheRows) {
     std::vector<Row> rows;
     for (const uint32_t scale : {1u, 2u, 4u}) {
         Row r = row("hbao", "", 0.5 * std::pow(double(scale), 2.2), 0.05);  // 1.1 over pixels
@@ -87,7 +87,7 @@ protected:
     }
 };
 
-TEST_F(Compared, nothingChangedPasses) {
+TEST_F(Compared, unchangedRunPasses) {
     const Comparison c = compare(m_before, m_now, {});
     EXPECT_TRUE(c.passes());
     for (const TimeChange& t : c.times) {
@@ -97,7 +97,7 @@ TEST_F(Compared, nothingChangedPasses) {
     }
 }
 
-TEST_F(Compared, aSlowerMachineIsNoRegressionUnlessAsked) {
+TEST_F(Compared, slowerMachineIsNoRegressionByDefault) {
     for (size_t i = 0; i < 3; ++i) scale(i, 1.5);
     const Comparison c = compare(m_before, m_now, {});
     EXPECT_TRUE(c.passes());
@@ -105,7 +105,7 @@ TEST_F(Compared, aSlowerMachineIsNoRegressionUnlessAsked) {
     EXPECT_FALSE(compare(m_before, m_now, {.absolute = true}).passes());
 }
 
-TEST_F(Compared, aSlowerMethodIsFoundAndItsPassNamed) {
+TEST_F(Compared, slowerMethodFailsAndItsPassIsNamed) {
     scale(1, 1.2);
     const Comparison c = compare(m_before, m_now, {});
     EXPECT_FALSE(c.passes());
@@ -116,7 +116,7 @@ TEST_F(Compared, aSlowerMethodIsFoundAndItsPassNamed) {
 }
 
 TEST_F(Compared, slowerWithinNoisePasses) {
-    // Twenty per cent more in the middle, but rounds that scatter by a factor of two.
+    // The median is 20 % higher, but rounds scatter by a factor of two.
     m_before.rows[1].rounds = {3.0, 6.0, 4.0, 2.0, 5.0};
     m_now.rows[1].rounds = {3.6, 7.2, 4.8, 2.4, 6.0};
     EXPECT_TRUE(compare(m_before, m_now, {}).passes());
@@ -138,7 +138,7 @@ TEST_F(Compared, errorsFlickerMemoryAndMissingRowsFail) {
     EXPECT_FALSE(compare(m_before, m_now, {}).passes());
 }
 
-TEST_F(Compared, whatCannotBeComparedIsSaid) {
+TEST_F(Compared, incomparableRunsAreReported) {
     m_now.device = "another";
     EXPECT_THROW(compare(m_before, m_now, {}), app::Complaint);
     m_now = m_before;
@@ -148,19 +148,19 @@ TEST_F(Compared, whatCannotBeComparedIsSaid) {
     EXPECT_THROW(compare(m_before, m_now, {}), app::Complaint);
 }
 
-TEST(Bench, tableMarksTheBestAndStandsBetweenTheMarks) {
+TEST(Bench, tableMarksTheBestAndReplacesTheMarkedSection) {
     const Results r = results({row("quick", "", 1.0, 0.08), row("yard", "", 2.0, 0.09, true), row("slow", "x=1", 4.0, 0.02), row("dear", "x=2", 8.0, 0.03)});
     const std::string all = markdown(r), brief = briefTable(r);
     EXPECT_NE(all.find("| **quick** | 1.00 |"), std::string::npos);
-    EXPECT_NE(all.find("| yard (yardstick) | 2.00 |"), std::string::npos);
+    EXPECT_NE(all.find("| yard (baseline) | 2.00 |"), std::string::npos);
     EXPECT_NE(all.find("| dear x=2 |"), std::string::npos);
     EXPECT_NE(brief.find("| **slow x=1** |"), std::string::npos);
     EXPECT_EQ(brief.find("dear"), std::string::npos);
-    const std::string told = briefTable(results({row("hbao", "", 1.0, 0.08, true), row("layered", "", 2.0, 0.04), row("hybrid", "", 3.0, 0.09), row("gtao", "", 4.0, 0.09, true)}));
-    EXPECT_NE(told.find("(yardstick) | Bavoil, Sainz, Dimitrov 2008 | depth, normals, (layers) | 1.00 |"), std::string::npos) << told;
-    EXPECT_NE(told.find("| **layered** | our own | depth, normals, (layers) |"), std::string::npos);
-    EXPECT_NE(told.find("| depth, normals, voxels | 3.00 |"), std::string::npos);
-    EXPECT_NE(told.find("| Jimenez, Wu, Pesce, Jarabo 2016; XeGTAO, Strugar, McCalla 2021 |"), std::string::npos);
+    const std::string table = briefTable(results({row("hbao", "", 1.0, 0.08, true), row("layered", "", 2.0, 0.04), row("hybrid", "", 3.0, 0.09), row("gtao", "", 4.0, 0.09, true)}));
+    EXPECT_NE(table.find("(baseline) | Bavoil, Sainz, Dimitrov 2008 | depth, normals, (layers) | 1.00 |"), std::string::npos) << table;
+    EXPECT_NE(table.find("| **layered** | our own | depth, normals, (layers) |"), std::string::npos);
+    EXPECT_NE(table.find("| depth, normals, voxels | 3.00 |"), std::string::npos);
+    EXPECT_NE(table.find("| Jimenez, Wu, Pesce, Jarabo 2016; XeGTAO, Strugar, McCalla 2021 |"), std::string::npos);
     EXPECT_EQ(citation("Timonen: Screen-Space Far-Field, HPG 2013, section 5"), "Timonen 2013");
     EXPECT_EQ(citation("Mittring: Finding Next Gen, CryEngine 2, SIGGRAPH 2007 courses; hemisphere form: de Vries, LearnOpenGL"),
               "Mittring 2007; hemisphere form: de Vries, LearnOpenGL");
@@ -170,7 +170,7 @@ TEST(Bench, tableMarksTheBestAndStandsBetweenTheMarks) {
     EXPECT_THROW(withTable("before\n", "new\n", "x.md"), app::Complaint);
 }
 
-TEST(Bench, listsOfSettingsAreEveryCombination) {
+TEST(Bench, listsOfSettingsExpandToEveryCombination) {
     const auto list = evaluate::variants({"hbao", "hybrid"}, {"default"}, {"hbao.steps=4,8", "hbao.directions=2,3", "voxels=64,128", "temporal=0.5"});
     std::vector<std::string> labels;
     for (const evaluate::Candidate& candidate : list) labels.push_back(candidate.label());

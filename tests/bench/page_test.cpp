@@ -1,4 +1,4 @@
-// The page in a real browser, light and dark: it asks for nothing, draws its charts, tells what a dot is.
+// The page in a real browser, light and dark: it loads no external resource, draws its charts, and labels a dot on hover.
 #include <fstream>
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(BenchPage, drawsChartsAndTellsWhatADotIs) {
+TEST(BenchPage, drawsChartsAndLabelsDots) {
     const fs::path folder = fs::temp_directory_path() / fmt::format("obscura-bench-page.{}", ::getpid());
     fs::create_directories(folder);
     std::vector<Row> rows{row("layered", "", 3.0, 0.03), row("hbao", "", 2.0, 0.06, true)};

@@ -1,14 +1,14 @@
-// Made-up results for tests.
+// Synthetic results for tests.
 #pragma once
 
 #include "results.h"
 
 namespace obscura::bench {
 
-inline Row row(const std::string& method, const std::string& settings, double ms, double eA, bool yardstick = false) {
+inline Row row(const std::string& method, const std::string& settings, double ms, double eA, bool baseline = false) {
     Row r;
     r.scene = "court", r.camera = "own", r.falloff = "quadratic:2", r.method = method, r.preset = "default", r.settings = settings;
-    r.width = 320, r.height = 180, r.yardstick = yardstick, r.triangles = 1000, r.reach = 2.0;
+    r.width = 320, r.height = 180, r.baseline = baseline, r.triangles = 1000, r.reach = 2.0;
     r.median = ms, r.p95 = 1.2 * ms, r.rounds = {ms, 1.01 * ms, 0.99 * ms, 1.02 * ms, 0.98 * ms};
     r.passes = {{method + ".only", ms, 1.2 * ms}};
     r.bytes = 1000000;

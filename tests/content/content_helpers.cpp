@@ -1,3 +1,4 @@
+// Helpers of the tests of generated content.
 #include "content_helpers.h"
 
 #include "atrium/atrium_scene.h"

@@ -1,3 +1,4 @@
+// Helpers of the tests of generated content.
 #pragma once
 
 #include "meshkit/scene.h"
@@ -8,8 +9,8 @@ namespace obscura::content {
 const kit::Scene& toasters();
 const kit::Scene& atrium();
 
-/// Number of edges that do not have exactly one neighbour running the other way. Pieces may share
-/// an edge, so only the balance of directions is counted.
+/// Number of edges that do not have exactly one neighbour running the other way. Separate
+/// components may share an edge, so only the balance of directions is counted.
 int openEdges(const kit::Mesh& mesh, std::uint32_t ignoredMaterial);
 
 } // namespace obscura::content

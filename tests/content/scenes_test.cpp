@@ -1,4 +1,4 @@
-// What both generated files promise: size, determinism, closed loops, sound geometry.
+// Both generated scenes: triangle count, determinism, looping animation, valid geometry.
 #include "atrium/atrium_layout.h"
 #include "atrium/atrium_scene.h"
 #include "content_helpers.h"
@@ -65,7 +65,7 @@ TEST_P(Scenes, TwoRunsGiveTheSameBytes)
     EXPECT_EQ(std::string(first.begin(), first.begin() + 4), "glTF");
 }
 
-TEST_P(Scenes, EveryChannelEndsWhereItBegan)
+TEST_P(Scenes, EveryChannelLoops)
 {
     EXPECT_EQ(scene().animation, "walk");
     for (const Channel& channel : scene().channels) {
@@ -75,7 +75,7 @@ TEST_P(Scenes, EveryChannelEndsWhereItBegan)
         EXPECT_TRUE(std::is_sorted(channel.times.begin(), channel.times.end())) << name;
         std::vector<float> first = keyValue(scene(), channel, 0);
         const std::vector<float> last = keyValue(scene(), channel, channel.times.size() - 1);
-        // A quaternion and its negative are one rotation.
+        // A quaternion and its negative are the same rotation.
         if (channel.path == Path::Rotation && std::inner_product(first.begin(), first.end(), last.begin(), 0.0f) < 0.0f)
             for (float& v : first)
                 v = -v;
@@ -127,7 +127,7 @@ TEST_P(Scenes, SolidsAreClosedAndWoundOutwards)
         };
         if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(), isSheet))
             continue;
-        // Tiled floors lie on a bed and are open beneath, where nothing can see them.
+        // Floor tiles lie on a bed and have no hidden underside.
         if (use.name.find("floor") != std::string::npos && use.name != "upper floor")
             continue;
         EXPECT_EQ(openEdges(mesh, atrium::kSlotCount), 0) << use.name;
@@ -154,7 +154,7 @@ TEST(Atrium, HasAMaskedAndADoubleSidedMaterial)
         materials.begin(), materials.end(), [](const Material& m) { return m.doubleSided && !m.masked; }));
 }
 
-TEST(FileOutput, NamesTheTroubleAndLeavesNothingBehind)
+TEST(FileOutput, ErrorNamesTheFileAndLeavesNoPartialFile)
 {
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "obscura-content-test";
     std::filesystem::remove_all(folder);

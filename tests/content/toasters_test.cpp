@@ -1,4 +1,4 @@
-// How the toys move: feet on the ground, no jump in the loop, no toy inside another.
+// Animation of the toys: feet touch the ground, the loop is continuous, toys do not intersect.
 #include "content_helpers.h"
 #include "meshkit/pose.h"
 #include "toasters/toaster_scene.h"
@@ -70,7 +70,7 @@ TEST(Toasters, WeightsOfEachSkinVertexSumToOne)
         }
 }
 
-TEST(Toasters, LoopHasNoJumpInPlaceOrSpeed)
+TEST(Toasters, LoopIsContinuousInPositionAndSpeed)
 {
     for (int toy = 0; toy < kToys; ++toy) {
         const Channel& walk = channelOf(toyNode("walk", toy), Path::Translation);
@@ -87,7 +87,7 @@ TEST(Toasters, LoopHasNoJumpInPlaceOrSpeed)
     }
 }
 
-TEST(Toasters, FeetTouchTheGroundAndNeverSink)
+TEST(Toasters, FeetTouchTheGroundAndDoNotSink)
 {
     const auto scripts = obscura::toasters::makeScripts();
     for (float time = 0.0f; time < 10.0f; time += 0.5f * kFrame) {
@@ -117,9 +117,9 @@ TEST(Toasters, KneesNeverOverstretch)
         }
 }
 
-TEST(Toasters, ToysDoNotRunThroughEachOther)
+TEST(Toasters, ToysDoNotIntersect)
 {
-    // Upright capsules about the bodies; rivals may press a little where they bump.
+    // Upright capsules around the bodies; colliding rivals may overlap slightly.
     constexpr float kRadius = 0.16f;
     constexpr float kHeight = 0.46f;
     for (float time = 0.0f; time < 10.0f; time += kFrame) {
@@ -146,7 +146,7 @@ TEST(Toasters, ToysStayOnTheTray)
     }
 }
 
-TEST(Toasters, ToastFliesAndComesBack)
+TEST(Toasters, ToastFliesAndReturns)
 {
     for (int toy = 0; toy < kToys; ++toy) {
         float highest = 0.0f;

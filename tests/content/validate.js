@@ -1,5 +1,5 @@
 // Prints "errors warnings" as the Khronos validator counts them, then each message.
-// Exit code 3 tells that the validator's package cannot be found.
+// Exits with 3 if the validator's package is not found.
 const fs = require('fs');
 const path = require('path');
 

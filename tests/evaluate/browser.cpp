@@ -1,3 +1,4 @@
+// Starts a headless Chromium and speaks its DevTools protocol over two pipes.
 #include "browser.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kPatience = 180000;  // milliseconds for any answer: shared machines are slow to start a browser
+constexpr int kPatience = 180000;  // ms to wait for an answer: a browser starts slowly on a loaded machine
 
 std::string findChromium() {
     if (const char* named = std::getenv("OBSCURA_CHROMIUM")) return named;
@@ -68,7 +69,7 @@ std::unique_ptr<Browser> Browser::start(const fs::path& profile, std::string& re
     const std::string profileOption = "--user-data-dir=" + profile.string();
     const pid_t process = ::fork();
     if (process == 0) {
-        // Chromium reads commands from descriptor 3 and answers on 4. Through higher ones first: a pipe may hold these numbers itself.
+        // Chromium reads commands from descriptor 3 and answers on 4. Duplicated to higher ones first, since the pipes may use 3 and 4.
         const int in = ::fcntl(toBrowser[0], F_DUPFD, 10), out = ::fcntl(fromBrowser[1], F_DUPFD, 10), nothing = ::open("/dev/null", O_RDWR);
         ::dup2(nothing, 0);
         ::dup2(nothing, 1);
@@ -107,7 +108,7 @@ Browser::~Browser() {
         call("Browser.close");
         ::close(m_out);
         ::close(m_in);
-        // Its helpers share its process group.
+        // Chromium's child processes share its process group.
         for (int i = 0; i < 50; ++i) {
             if (::waitpid(m_process, nullptr, WNOHANG) == m_process) return;
             ::usleep(100000);

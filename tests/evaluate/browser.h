@@ -1,4 +1,4 @@
-// A headless Chromium, driven through its remote-debugging pipe: real key strokes and pointer moves on a real page.
+// A headless Chromium controlled through its remote-debugging pipe: key strokes and pointer moves on a real page.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@ namespace obscura::evaluate {
 
 class Browser {
 public:
-    // Null, with a reason in one line, where there is no Chromium or it does not answer. `profile` is a folder of its own.
+    // Null, with a one-line reason, if Chromium is not installed or does not answer. `profile`: an own folder.
     static std::unique_ptr<Browser> start(const std::filesystem::path& profile, std::string& reason);
     ~Browser();
     Browser(const Browser&) = delete;
 
     // Loads a page at a window size in CSS pixels and waits until it has loaded. False when that takes too long.
     bool open(const std::string& url, int width, int height, bool dark = false);
-    nlohmann::json evaluate(const std::string& expression);  // its value; a promise is waited for; null when it throws
+    nlohmann::json evaluate(const std::string& expression);  // value of a JavaScript expression, promises awaited; null if it throws
     void click(double x, double y);
     void drag(double x0, double y0, double x1, double y1);
     void key(const std::string& name, int code);             // "ArrowRight", 39
     std::vector<std::byte> screenshot();                     // PNG
-    const std::vector<std::string>& requests() const { return m_requests; }  // everything the page asked for but itself and data
+    const std::vector<std::string>& requests() const { return m_requests; }  // URLs that the page requested, except itself and data:
     const std::vector<std::string>& errors() const { return m_errors; }      // exceptions and console errors
 
 private:

@@ -1,3 +1,4 @@
+// Runs obscura-evaluate through the shell and makes frames for it.
 #include "command.h"
 
 #include <algorithm>

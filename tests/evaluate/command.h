@@ -1,4 +1,4 @@
-// Runs obscura-evaluate as a user does, and makes small frames to feed it.
+// Runs obscura-evaluate from the command line, and makes small frames for it.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@ namespace obscura::evaluate {
 
 using test::Ended;
 using test::shellCommand;
-Ended runTool(const std::string& arguments);  // as a shell reads them: see shellCommand()
+Ended runTool(const std::string& arguments);  // quoted by shellCommand()
 
-// A folder that goes with its owner.
+// A temporary folder, removed with the object.
 class Scratch {
 public:
     Scratch();
@@ -27,7 +27,7 @@ private:
 };
 
 std::string textOf(const std::filesystem::path& file);
-// A floor and a wall that meet: 64 x 36 px and a guard band of 6 x 4.
+// A floor and a wall: 64 x 36 px and a guard band of 6 x 4 px.
 truth::CapturedFrame cornerFrame();
 
 }  // namespace obscura::evaluate

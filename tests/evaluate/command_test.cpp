@@ -1,4 +1,4 @@
-// The tool as a user runs it: frames in, numbers and files out; bad input is one line, exit code 2 and nothing written.
+// obscura-evaluate from the command line: errors, images, tables. Invalid input prints one line, exits with 2 and writes nothing.
 #include <algorithm>
 #include <fstream>
 #include <functional>
@@ -26,7 +26,7 @@ protected:
     fs::path exr() const { return m_scratch / "corner.capture.exr"; }
     fs::path camera() const { return m_scratch / "corner.json"; }
 
-    // A broken frame is refused with one line that holds `expected`, and nothing appears.
+    // An invalid frame is refused with one line that contains `expected`, and no file is written.
     void expectRefused(const std::string& expected, const std::string& more = "") {
         const size_t before = m_scratch.files();
         const Ended ended = runTool(shellCommand("--capture {} --camera {} --json {} --out {} ", exr(), camera(), m_scratch / "e.json",
@@ -46,7 +46,7 @@ protected:
     Scratch m_scratch;
 };
 
-TEST_F(OnAFrame, numbersPicturesAndTables) {
+TEST_F(OnAFrame, writesErrorsImagesAndTables) {
     const Ended ended = runTool(shellCommand(
         "--capture {} --camera {} --method hbao --preset all --falloff quadratic:2,exponential:1 --rays 64 --frames 2 --json {} --out {}",
         exr(), camera(), m_scratch / "e.json", m_scratch / "out"));
@@ -66,7 +66,7 @@ TEST_F(OnAFrame, numbersPicturesAndTables) {
           "corner.capture.hbao.default.exponential_1.error.screen.png", "corner.capture.reference.exr", "metrics.json", "metrics.md"})
         EXPECT_TRUE(fs::exists(m_scratch / "out" / name)) << name;
 
-    // The references it wrote are references it reads, and judge alike.
+    // The references it wrote can be read back and give the same errors.
     const Ended again = runTool(shellCommand("--capture {} --camera {} --frames 1 --reference {} --channel screen.quadratic_2 --json {}",
                                             exr(), camera(), m_scratch / "out/corner.capture.reference.exr",
                                             m_scratch / "again.json"));
@@ -75,7 +75,7 @@ TEST_F(OnAFrame, numbersPicturesAndTables) {
     EXPECT_NEAR(row["eA"].get<double>(), rows[0]["eA"].get<double>(), 1e-4);
 }
 
-TEST_F(OnAFrame, everyThirdPixelIsJudgedAsInTheWholeReference) {
+TEST_F(OnAFrame, everyThirdPixelMatchesTheFullReference) {
     const auto evaluate = [&](const std::string& more) {
         const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --target-error 0 --frames 1 --json {} ", exr(), camera(),
                                                  m_scratch / "e.json") + more);
@@ -104,7 +104,7 @@ TEST_F(OnAFrame, everyThirdPixelIsJudgedAsInTheWholeReference) {
     EXPECT_NEAR(sparse["pixels"].get<double>(), whole["pixels"].get<double>() / 9.0, 40.0);
     EXPECT_NE(sparse["eA"], whole["eA"]);
 
-    // What was not traced is in no picture.
+    // The sparse reference has only the traced pixels.
     const truth::Picture few = truth::readExr(m_scratch / "few/corner.capture.reference.exr");
     ASSERT_EQ(few.width, (reference.width + 2) / 3);
     ASSERT_EQ(few.height, (reference.height + 2) / 3);
@@ -113,8 +113,8 @@ TEST_F(OnAFrame, everyThirdPixelIsJudgedAsInTheWholeReference) {
         for (uint32_t x = 0; x < some.width; ++x) ASSERT_EQ(some.at(x, y), all.at(3 * x, 3 * y)) << x << ", " << y;
 }
 
-TEST_F(OnAFrame, deviceDepthWorldNormalsAndOtherNamesAreTheSameFrame) {
-    // The same frame as a host would dump it: seen from a camera in the world, reversed device depth, world normals.
+TEST_F(OnAFrame, deviceDepthAndWorldNormalsGiveTheSameError) {
+    // The same frame with a camera in the world, reversed device depth and world normals.
     json camera = camera_();
     camera["eye"] = {1, 2, 3};
     camera["target"] = {4, 2, 3};  // looks along +x
@@ -140,66 +140,66 @@ TEST_F(OnAFrame, deviceDepthWorldNormalsAndOtherNamesAreTheSameFrame) {
     EXPECT_NEAR(errorOf(m_scratch / "dump.exr", m_scratch / "pose.json"), plain, 0.002);
 }
 
-TEST_F(OnAFrame, missingNormalsAreMadeFromDepth) {
+TEST_F(OnAFrame, missingNormalsAreReconstructed) {
     rewrite([](truth::Picture& picture) { std::erase_if(picture.channels, [](const auto& c) { return c.name != "Z"; }); });
     const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --frames 1", exr(), camera()));
     EXPECT_EQ(ended.code, 0) << ended.error;
     EXPECT_NE(ended.out.find("reconstructed"), std::string::npos) << ended.out;
 }
 
-TEST_F(OnAFrame, truncated) {
+TEST_F(OnAFrame, truncatedFileIsRefused) {
     fs::resize_file(exr(), fs::file_size(exr()) / 2);
     expectRefused("corner.capture.exr");
 }
-TEST_F(OnAFrame, noExrAtAll) {
-    std::ofstream(exr(), std::ios::trunc) << "this is no picture";
+TEST_F(OnAFrame, otherFileTypeIsRefused) {
+    std::ofstream(exr(), std::ios::trunc) << "not an image";
     expectRefused("corner.capture.exr");
 }
-TEST_F(OnAFrame, withoutDepth) {
+TEST_F(OnAFrame, missingDepthIsRefused) {
     rewrite([](truth::Picture& picture) { std::erase_if(picture.channels, [](const auto& c) { return c.name == "Z"; }); });
     expectRefused("Z is missing");
 }
-TEST_F(OnAFrame, withHalfItsNormals) {
+TEST_F(OnAFrame, incompleteNormalsAreRefused) {
     rewrite([](truth::Picture& picture) { std::erase_if(picture.channels, [](const auto& c) { return c.name == "N.Y"; }); });
     expectRefused("N.Y is missing");
 }
-TEST_F(OnAFrame, ofAnotherSize) {
+TEST_F(OnAFrame, otherSizeIsRefused) {
     json camera = camera_();
     camera["visible"] = {60, 36};
     std::ofstream(this->camera()) << camera.dump();
     expectRefused("corner.json makes 72 x 44");
 }
-TEST_F(OnAFrame, withDepthThatIsNoNumber) {
+TEST_F(OnAFrame, nanDepthIsRefused) {
     rewrite([](truth::Picture& picture) { depthOf(picture)[5] = std::numeric_limits<float>::quiet_NaN(); });
     expectRefused("pixel (5, 0)");
 }
-TEST_F(OnAFrame, withInfiniteDepth) {
+TEST_F(OnAFrame, infiniteDepthIsRefused) {
     rewrite([](truth::Picture& picture) { depthOf(picture)[7] = std::numeric_limits<float>::infinity(); });
     expectRefused("pixel (7, 0)");
 }
-TEST_F(OnAFrame, withoutAFieldOfView) {
+TEST_F(OnAFrame, missingFieldOfViewIsRefused) {
     json camera = camera_();
     camera.erase("verticalFovDegrees");
     std::ofstream(this->camera()) << camera.dump();
     expectRefused("verticalFovDegrees");
 }
-TEST_F(OnAFrame, withACameraThatIsNoJson) {
+TEST_F(OnAFrame, invalidCameraJsonIsRefused) {
     std::ofstream(camera(), std::ios::trunc) << "{ \"visible\": [64,";
     expectRefused("corner.json");
 }
-TEST_F(OnAFrame, againstAReferenceOfAnotherSize) {
+TEST_F(OnAFrame, referenceOfOtherSizeIsRefused) {
     truth::Picture picture;
     picture.add("world.quadratic_2", truth::Plane(8, 8));
     truth::writeExr(m_scratch / "r.exr", picture);
     expectRefused("8 x 8", shellCommand("--reference {}", m_scratch / "r.exr"));
 }
-TEST_F(OnAFrame, againstAChannelThatIsNotThere) {
+TEST_F(OnAFrame, missingReferenceChannelIsRefused) {
     truth::Picture picture;
     picture.add("world.quadratic_2", truth::Plane(64, 36));
     truth::writeExr(m_scratch / "r.exr", picture);
     expectRefused("world.quadratic_2", shellCommand("--reference {} --falloff linear:1", m_scratch / "r.exr"));
 }
-TEST_F(OnAFrame, intoAFolderThatCannotBe) {
+TEST_F(OnAFrame, unwritableFolderIsRefused) {
     std::ofstream(m_scratch / "file") << "x";
     const Ended ended = runTool(
         shellCommand("--capture {} --camera {} --json {}", exr(), camera(), m_scratch / "file" / "e.json"));
@@ -207,7 +207,7 @@ TEST_F(OnAFrame, intoAFolderThatCannotBe) {
     EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
 }
 
-TEST(OnAScene, whatItCapturesIsWhatItJudged) {
+TEST(OnAScene, capturedFrameGivesTheSameErrors) {
     const Scratch scratch;
     const std::string reference = (scratch / "out/toasters.own.reference.exr").string();
     const Ended scene = runTool(shellCommand("--scene toasters --size 96x54 --rays 64 --frames 1 --json {} --out {} --capture-out {}",
@@ -222,8 +222,8 @@ TEST(OnAScene, whatItCapturesIsWhatItJudged) {
     EXPECT_EQ(a["pixels"], b["pixels"]);
 }
 
-TEST(OnAScene, passesThatOnlySomeFramesHaveAreToldApart) {
-    // Layers are drawn in two forms in turn until one of them has proved cheaper.
+TEST(OnAScene, passesOfSomeFramesOnlyAreTimed) {
+    // Depth layers are drawn by two techniques in turn until one is measured to be cheaper.
     const Scratch scratch;
     const std::string file = (scratch / "a.json").string();
     const Ended ended = runTool(shellCommand("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality"
@@ -234,7 +234,7 @@ TEST(OnAScene, passesThatOnlySomeFramesHaveAreToldApart) {
     for (const auto& [name, time] : passes.items()) EXPECT_TRUE(time.is_number() && time.get<double>() >= 0.0) << name << ": " << time;
 }
 
-TEST(OnAScene, badNamesAreOneLine) {
+TEST(OnAScene, unknownNamesPrintOneLine) {
     for (const char* arguments :
          {"--scene toaster", "--scene no/such.glb", "--scene toasters --camera scene:99", "--scene toasters --camera path:no.json@1",
           "--scene toasters --camera no.json", "--scene toasters --reference no.exr", "--check-baseline no.json"}) {
@@ -244,7 +244,7 @@ TEST(OnAScene, badNamesAreOneLine) {
     }
 }
 
-TEST(OnAScene, theGateFailsWhenACellWorsens) {
+TEST(OnAScene, gateFailsWhenACellWorsens) {
     const Scratch scratch;
     const std::string file = (scratch / "b.json").string();
     std::ofstream(file)

@@ -1,5 +1,5 @@
-// The gallery in a real browser: it opens from a file, asks for nothing, its table sorts, its slider moves, its pictures
-// and error pictures are drawn, and it fits a narrow screen.
+// The gallery in a real browser: it opens from a file, loads no external resource, its table sorts, its slider moves, its
+// images and error images are drawn, and it fits a narrow screen.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -20,7 +20,7 @@ using nlohmann::json;
 
 class Gallery : public testing::Test {
 protected:
-    // One small page for all tests here: two frames, two methods' presets, two falloffs, two references.
+    // One small page for all tests: two frames, two presets, two falloffs, two references.
     static void SetUpTestSuite() {
         s_scratch = new Scratch();
         s_made = new Ended(runTool(shellCommand(
@@ -49,7 +49,7 @@ protected:
         m_browser->evaluate("Promise.all([...document.images].map(i => i.decode().catch(() => 0)))");
     }
     json ask(const std::string& expression) { return m_browser->evaluate(expression); }
-    // Until the answer `holds`, for some minutes at most: pictures are decoded while the page goes on.
+    // Polls until `holds`, for some minutes at most: images are decoded asynchronously.
     template <class Holds> json askUntil(const std::string& expression, Holds holds) {
         json answer = ask(expression);
         for (int i = 0; i < 1500 && !holds(answer); ++i) {
@@ -58,7 +58,7 @@ protected:
         }
         return answer;
     }
-    // Scrolls it into view and gives its centre.
+    // Scrolls an element into view and returns its centre.
     std::pair<double, double> centre(const std::string& selector) {
         const json at = ask(fmt::format(
             "(() => {{ const e = document.querySelector('{}'); e.scrollIntoView({{block: 'center'}}); const r = e.getBoundingClientRect(); "
@@ -70,7 +70,7 @@ protected:
         const auto [x, y] = centre(selector);
         m_browser->click(x, y);
     }
-    // Screenshots are kept where OBSCURA_SCREENSHOTS says, for people to look at.
+    // Screenshots are written to the folder OBSCURA_SCREENSHOTS, if set.
     void screenshot(const char* name) {
         const std::vector<std::byte> png = m_browser->screenshot();
         EXPECT_GT(png.size(), 10000u);
@@ -96,7 +96,7 @@ TEST_F(Gallery, sortsByAnyColumnBothWays) {
     click("th button[data-key=ssim]");
     ssim = ask(values).get<std::vector<double>>();
     EXPECT_TRUE(std::is_sorted(ssim.rbegin(), ssim.rend()));
-    // By keyboard: the button keeps the focus.
+    // By keyboard: the button keeps focus.
     ask("document.querySelector('th button[data-key=label]').focus()");
     m_browser->evaluate("0");
     ask("document.activeElement.click()");
@@ -120,13 +120,13 @@ TEST_F(Gallery, sliderFollowsPointerAndKeys) {
     m_browser->key("ArrowLeft", 37);
     EXPECT_LT(ask(split).get<double>(), before);
     EXPECT_NE(ask(clip), after);
-    // Left of the handle stands the reference, right of it the method: what the screen shows, not only what the page says.
+    // The screenshot shows the reference left of the handle and the method right of it.
     EXPECT_EQ(ask("document.getElementById('tag-left').textContent"), "world reference");
     EXPECT_NE(ask("document.getElementById('picture-left').src"), ask("document.getElementById('picture-right').src"));
     screenshot("gallery-slider.png");
 }
 
-TEST_F(Gallery, choosingAFrameChangesPicturesErrorsAndNumbers) {
+TEST_F(Gallery, choosingAFrameChangesImagesAndErrors) {
     open(1400, 1000);
     const std::string sum =
         "(() => { const c = document.getElementById('error'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; "
@@ -149,7 +149,7 @@ TEST_F(Gallery, choosingAFrameChangesPicturesErrorsAndNumbers) {
     EXPECT_EQ(ask("document.querySelectorAll('#table tbody tr').length"), 2 * 2);
 }
 
-TEST_F(Gallery, fitsANarrowScreenAndTheDark) {
+TEST_F(Gallery, fitsANarrowDarkScreen) {
     open(390, 900, true);
     EXPECT_EQ(ask("document.documentElement.dataset.theme"), "dark");
     EXPECT_LE(ask("document.documentElement.scrollWidth"), 390);

@@ -1,4 +1,4 @@
-// The tool's parts that need no device: colours, choices, the gate's judgement.
+// obscura-evaluate without a device: false colours, candidates, options, the gate.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace obscura::evaluate {
 namespace {
 
-// What the complaint says, or nothing.
+// The message of the thrown complaint, or an empty string.
 template <class Do>
 std::string complaintOf(Do act) {
     try {
@@ -28,7 +28,7 @@ std::string parse(std::vector<const char*> words) {
     return complaintOf([&] { parseOptions(int(words.size()), words.data()); });
 }
 
-TEST(FalseColour, growsLighterWithTheErrorOnBothArms) {
+TEST(FalseColour, lightnessGrowsWithErrorOfEitherSign) {
     const auto lightness = [](Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; };
     for (const float sign : {-1.0f, 1.0f}) {
         float before = -1.0f;
@@ -58,7 +58,7 @@ TEST(Candidates, methodsTimesPresets) {
     EXPECT_EQ(two[1].values.count("directions"), 8u);
 }
 
-TEST(Candidates, sayWhatThereIs) {
+TEST(Candidates, errorsListValidNames) {
     EXPECT_NE(complaintOf([] { candidates({"hbo"}, {"default"}, {}); }).find("did you mean hbao"), std::string::npos);
     EXPECT_NE(complaintOf([] { candidates({"hbao"}, {"fast"}, {}); }).find("8x4"), std::string::npos);
     EXPECT_NE(complaintOf([] { candidates({"hbao"}, {"default"}, {"step=4"}); }).find("did you mean steps"), std::string::npos);
@@ -68,7 +68,7 @@ TEST(Candidates, sayWhatThereIs) {
     EXPECT_NE(complaintOf([] { falloffs({"quadratic:-2"}); }).find("above 0"), std::string::npos);
 }
 
-TEST(Options, contradictionsAreOneComplaint) {
+TEST(Options, contradictionsAreErrors) {
     EXPECT_NE(parse({}).find("--scene"), std::string::npos);
     EXPECT_NE(parse({"--capture", "f.exr"}).find("--camera FILE.json"), std::string::npos);
     EXPECT_NE(parse({"--scene", "toasters", "--size", "10"}).find("WIDTHxHEIGHT"), std::string::npos);
@@ -82,7 +82,7 @@ TEST(Options, contradictionsAreOneComplaint) {
     EXPECT_NE(parse({"--scene", "toasters", "--metod", "hbao"}).find("did you mean --method"), std::string::npos);
 }
 
-TEST(Options, aGalleryShowsEverythingUnlessTold) {
+TEST(Options, galleryShowsEverythingByDefault) {
     const char* words[] = {"obscura-evaluate", "--gallery", "--scene", "toasters"};
     const auto options = parseOptions(4, words);
     ASSERT_TRUE(options);
@@ -93,7 +93,7 @@ TEST(Options, aGalleryShowsEverythingUnlessTold) {
     EXPECT_TRUE(options->reference.world && options->reference.screen);
 }
 
-TEST(Options, theGalleryLiesInsideOut) {
+TEST(Options, galleryIsWrittenToOutFolder) {
     const char* inside[] = {"obscura-evaluate", "--gallery", "--scene", "toasters", "--out", "some/folder"};
     EXPECT_EQ(parseOptions(6, inside)->page, "some/folder/gallery.html");
     const char* named[] = {"obscura-evaluate", "--gallery", "mine.html", "--scene", "toasters", "--out", "some/folder"};
@@ -111,7 +111,7 @@ Baseline small() {
     return baseline;
 }
 
-TEST(Gate, aBaselineReadsAsItWasWritten) {
+TEST(Gate, baselineRoundTrips) {
     const Scratch scratch;
     const Baseline written = small();
     std::ofstream(scratch / "b.json") << baselineText(written);
@@ -138,7 +138,7 @@ TEST(Gate, failsOnlyWhenWorseByBothTolerances) {
     EXPECT_EQ(judge(baseline, measured).better.size(), 1u);
 }
 
-TEST(Gate, aCellWithoutABaselineFails) {
+TEST(Gate, cellWithoutBaselineFails) {
     const Baseline baseline = small();
     std::map<Cell, float> measured = baseline.cells;
     Cell added = measured.begin()->first;

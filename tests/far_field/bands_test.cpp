@@ -1,7 +1,7 @@
-// Bands: what a tall box casts on the plane beside it must not show in how many directions the picture was cut.
+// Banding: the error around a tall box must have no peak at the frequency of the azimuth directions.
 #include <complex>
 
-#include "far_field/bench.h"
+#include "far_field/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -9,9 +9,9 @@ namespace {
 constexpr uint32_t kSize = 256, kGuard = 24, kSide = kSize - 2 * kGuard;
 constexpr double kTurn = 6.283185307179586, kPlane = 6.0, kTop = 2.0;
 
-// A plane 6 m away with a box 4 m high: turned, and beside the picture's middle, so that it has no symmetry with the directions; about a point every
-// error would be the same half a turn on, and every other frequency 0.
-struct Box { double u, v, turn, halfLength, halfWidth; };  // pixels from the picture's middle; radians
+// A plane 6 m away with a box 4 m high, rotated and off the middle of the image, so that it has no symmetry with the directions. Around a
+// symmetric occluder the error would repeat after half a turn and every second frequency would be 0.
+struct Box { double u, v, turn, halfLength, halfWidth; };  // px from the middle of the image; radians
 Room tallBox(const Box& box) {
     Room room;
     room.width = room.height = kSize;
@@ -30,11 +30,11 @@ Room tallBox(const Box& box) {
     return room;
 }
 
-// What rays say that are marched through the same depth buffer from the plane at pixel (x, y): obscurance. The box is as ragged for them as for the
-// method, and reaches as far behind its top. A ray's picture is a line, so all that is needed is where lines of each angle enter the box.
+// Reference: obscurance at pixel (x, y) of the plane, by rays marched through the same depth buffer. The box has the same pixel outline as
+// for the method, and infinite thickness. A ray projects to a line, so it suffices to know where lines of each angle enter the box.
 double obscuranceOfRays(const Room& room, const Box& box, int x, int y, double length) {
     constexpr int kAngles = 1440, kAround = 720, kUp = 32;
-    const double focal = 0.5 * kSize * double(room.projection[0]), depth = kPlane - kPlane / focal;  // a footprint above the plane, as methods have it
+    const double focal = 0.5 * kSize * double(room.projection[0]), depth = kPlane - kPlane / focal;  // one pixel footprint above the plane, like the methods
     const double p[2] = {(x + 0.5 - 128.0) / focal * kPlane, (y + 0.5 - 128.0) / focal * kPlane};
     const double seen[2] = {p[0] / depth * focal + 128.0, p[1] / depth * focal + 128.0};
     const double aside[2] = {128.0 + box.u - seen[0], 128.0 + box.v - seen[1]}, distance = std::hypot(aside[0], aside[1]);
@@ -49,7 +49,7 @@ double obscuranceOfRays(const Room& room, const Box& box, int x, int y, double l
         for (int back = 0; back < 8 && enters[i] >= 0.0 && inside(t -= 0.05); ++back) enters[i] = t;
     }
     double blocked = 0.0;
-    const double passing = box.halfLength + box.halfWidth + distance * kTurn / kAngles;  // px from the box's middle: such lines miss it
+    const double passing = box.halfLength + box.halfWidth + distance * kTurn / kAngles;  // px from the middle of the box: lines farther away miss it
     for (int i = 0; i < kAround; ++i) {
         const double azimuth = kTurn * (i + 0.5) / kAround, c = std::cos(azimuth), s = std::sin(azimuth);
         if (c * aside[0] + s * aside[1] < 0.0) continue;
@@ -66,23 +66,23 @@ double obscuranceOfRays(const Room& room, const Box& box, int x, int y, double l
     return blocked / (kAround * kUp);
 }
 
-// Where the error is looked at: circles around the box.
-constexpr int kAzimuths = 256, kRings = 13, kMost = 40;
-struct Spot {
+// The error is sampled on circles around the box.
+constexpr int kAzimuths = 256, kRings = 13, kMaxFrequency = 40;
+struct RingPoint {
     int x, y;      // of the visible part; the error is interpolated between this pixel and the three after it
     double fx, fy;
 };
-Spot onRing(const Box& box, int ring, int i) {
+RingPoint onRing(const Box& box, int ring, int i) {
     const double a = kTurn * i / kAzimuths, radius = 30.0 + 5.0 * ring, middle = 0.5 * kSide - 0.5;
     const double x = middle + box.u + radius * std::cos(a), y = middle + box.v + radius * std::sin(a);
     return {int(x), int(y), x - int(x), y - int(y)};
 }
 
-// The rays' obscurance wherever a ring needs it, -1 elsewhere.
+// Reference obscurance at the pixels of the rings, -1 elsewhere.
 Picture referenceOf(const Room& room, const Box& box, double length) {
     Picture result(size_t(kSide) * kSide, -1.0f);
     for (int i = 0; i < kRings * kAzimuths; ++i) {
-        const Spot spot = onRing(box, i / kAzimuths, i % kAzimuths);
+        const RingPoint spot = onRing(box, i / kAzimuths, i % kAzimuths);
         for (int corner = 0; corner < 4; ++corner) {
             const int x = spot.x + corner % 2, y = spot.y + corner / 2;
             float& value = result[size_t(y) * kSide + x];
@@ -92,34 +92,34 @@ Picture referenceOf(const Room& room, const Box& box, double length) {
     return result;
 }
 
-// The error's waves around one box, of one ring after the other: 0 ... kMost a turn.
-using Waves = std::vector<std::complex<double>>;
-Waves wavesOf(const Picture& picture, const Picture& reference, const Box& box) {
-    Waves waves(kRings * (kMost + 1));
+// Fourier transform of the error along each ring around one box, frequencies 0 ... kMaxFrequency per turn, ring by ring.
+using Spectrum = std::vector<std::complex<double>>;
+Spectrum spectrumOf(const Picture& picture, const Picture& reference, const Box& box) {
+    Spectrum spectrum(kRings * (kMaxFrequency + 1));
     for (int ring = 0; ring < kRings; ++ring) {
         std::vector<double> error(kAzimuths);
         for (int i = 0; i < kAzimuths; ++i) {
-            const Spot s = onRing(box, ring, i);
+            const RingPoint s = onRing(box, ring, i);
             const auto at = [&](int u, int v) {
                 const size_t p = size_t(s.y + v) * kSide + size_t(s.x + u);
                 return double(picture[p]) - double(reference[p]);
             };
             error[i] = (at(0, 0) * (1 - s.fx) + at(1, 0) * s.fx) * (1 - s.fy) + (at(0, 1) * (1 - s.fx) + at(1, 1) * s.fx) * s.fy;
         }
-        for (int f = 0; f <= kMost; ++f)
-            for (int i = 0; i < kAzimuths; ++i) waves[ring * (kMost + 1) + f] += error[i] * std::polar(1.0 / kAzimuths, -kTurn * double(f) * i / kAzimuths);
+        for (int f = 0; f <= kMaxFrequency; ++f)
+            for (int i = 0; i < kAzimuths; ++i) spectrum[ring * (kMaxFrequency + 1) + f] += error[i] * std::polar(1.0 / kAzimuths, -kTurn * double(f) * i / kAzimuths);
     }
-    return waves;
+    return spectrum;
 }
 
-// Mean power over the rings, by waves a turn.
-std::vector<double> powerOf(const Waves& waves) {
-    std::vector<double> power(kMost + 1, 0.0);
-    for (size_t i = 0; i < waves.size(); ++i) power[i % (kMost + 1)] += std::norm(waves[i]) / kRings;
+// Power by frequency, mean over the rings.
+std::vector<double> powerOf(const Spectrum& spectrum) {
+    std::vector<double> power(kMaxFrequency + 1, 0.0);
+    for (size_t i = 0; i < spectrum.size(); ++i) power[i % (kMaxFrequency + 1)] += std::norm(spectrum[i]) / kRings;
     return power;
 }
 
-// Over 1 ... kMost waves a turn: amplitude of the strongest, which that is, its power in medians of all of them.
+// The strongest frequency in 1 ... kMaxFrequency: its amplitude, and its power as a multiple of the median power.
 struct Peak { double amplitude; int frequency; double medians; };
 Peak peakOf(const std::vector<double>& power) {
     const auto highest = std::max_element(power.begin() + 1, power.end());
@@ -130,9 +130,9 @@ Peak peakOf(const std::vector<double>& power) {
 
 class FarFieldBands : public FarFieldTest {};
 
-// Eight boxes, each turned further, stand for one: a single one's sides and ends are not as far away as each other, nor as wrong, and make waves of
-// their own. What directions leave keeps its place when the box turns, so the mean of the eight errors shows it alone, down to what no picture shows.
-TEST_F(FarFieldBands, noPeakIsAboveThreeMedians) {
+// The shape of a single box causes frequencies of its own. Those rotate with the box, while bands of the directions do not, so the mean
+// error of eight rotated boxes shows only the bands.
+TEST_F(FarFieldBands, noFrequencyExceedsThreeTimesTheMedian) {
     constexpr int kBoxes = 8;
     std::vector<Box> boxes;
     std::vector<Room> rooms;
@@ -144,23 +144,23 @@ TEST_F(FarFieldBands, noPeakIsAboveThreeMedians) {
     }
     struct Bands { Peak each, together; };
     const auto bands = [&](const char* name, const char* preset, const Changes& changes) {
-        std::vector<double> power(kMost + 1, 0.0);
-        Waves mean(kRings * (kMost + 1));
+        std::vector<double> power(kMaxFrequency + 1, 0.0);
+        Spectrum mean(kRings * (kMaxFrequency + 1));
         for (int i = 0; i < kBoxes; ++i) {
-            const Waves waves = wavesOf(run(rooms[i], values(changes, preset), "exponential:3"), references[i], boxes[i]);
-            const std::vector<double> one = powerOf(waves);
-            for (int f = 0; f <= kMost; ++f) power[f] += one[f] / kBoxes;
-            for (size_t w = 0; w < waves.size(); ++w) mean[w] += waves[w] / double(kBoxes);
+            const Spectrum spectrum = spectrumOf(run(rooms[i], values(changes, preset), "exponential:3"), references[i], boxes[i]);
+            const std::vector<double> one = powerOf(spectrum);
+            for (int f = 0; f <= kMaxFrequency; ++f) power[f] += one[f] / kBoxes;
+            for (size_t w = 0; w < spectrum.size(); ++w) mean[w] += spectrum[w] / double(kBoxes);
         }
         const Bands result{peakOf(power), peakOf(powerOf(mean))};
-        printf("%-16s highest peak %2d a turn, %.4f, %5.1f medians; in the mean error %2d a turn, %.4f\n", name, result.each.frequency,
+        printf("%-16s highest peak at %2d per turn, %.4f, %5.1f medians; in the mean error at %2d per turn, %.4f\n", name, result.each.frequency,
                result.each.amplitude, result.each.medians, result.together.frequency, result.together.amplitude);
         return result;
     };
     const Bands improved = bands("default", "default", {});
     EXPECT_LE(improved.each.medians, 3.0);
     EXPECT_LE(improved.together.amplitude, 0.2 / 255.0);
-    // It tells bands where there are some: the paper's, those that alternation takes out, those of fewer directions with as many segments.
+    // The test detects bands: those of the paper's preset, those without alternating directions, those of fewer directions.
     const Bands paper = bands("paper_8x2", "paper_8x2", {}), straight = bands("not alternating", "default", {{"alternate", 0}});
     const Bands fewer = bands("8x3", "default", {{"directions", 8}, {"segments", 3}});
     EXPECT_GT(paper.each.medians, 10.0);

@@ -1,5 +1,5 @@
-// Frames at the edge of what makes sense: sky, a camera against a wall, tiny, odd and large pictures, other projections.
-#include "far_field/bench.h"
+// Extreme frames: only sky, a camera close to a wall, tiny, odd and large sizes, orthographic projection.
+#include "far_field/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -17,7 +17,7 @@ protected:
     }
 };
 
-TEST_F(FarFieldEdges, skyAloneIsOpen) {
+TEST_F(FarFieldEdges, skyIsOpen) {
     Room room;
     room.build();
     std::fill(room.depth.begin(), room.depth.end(), 1e4f);
@@ -26,20 +26,20 @@ TEST_F(FarFieldEdges, skyAloneIsOpen) {
     EXPECT_EQ(highest(run(room, values({}), "exponential:1")), 0.0f);
 }
 
-TEST_F(FarFieldEdges, anySize) {
+TEST_F(FarFieldEdges, anySizeGivesValidObscurance) {
     for (const auto& [width, height, guard] : {std::tuple{8u, 8u, 0u}, {1u, 1u, 0u}, {9u, 33u, 1u}, {97u, 61u, 7u}, {161u, 3u, 0u}, {160u, 120u, 0u}}) {
         const Room room = crease(width, height, guard);
         everyPreset(room, "exponential:1", (std::to_string(width) + "x" + std::to_string(height)).c_str());
     }
 }
 
-TEST_F(FarFieldEdges, anyScale) {
+TEST_F(FarFieldEdges, scaledWorldGivesTheSameResult) {
     for (const float scale : {0.0033f, 1.0f, 1.67f, 167.0f}) {  // the wall 1 cm, 3 m, 5 m and 500 m away
         Room room = crease(160, 120, 16);
         for (float& z : room.depth) z *= z < 5e3f ? scale : 1.0f;
         everyPreset(room, "exponential:1", std::to_string(scale).c_str());
         for (const char* falloff : {"constant:0.01", "constant:100000", "linear:0.25", "exponential:100", "ramp:0.1:0.2"}) everyPreset(room, falloff, falloff);
-        // The same picture with everything scaled, falloff included.
+        // The result is the same if all lengths are scaled, falloff included.
         const std::string falloff = "exponential:" + std::to_string(scale);
         const Picture scaled = run(room, values({}), falloff.c_str()), one = run(crease(160, 120, 16), values({}), "exponential:1");
         double difference = 0.0;
@@ -48,13 +48,13 @@ TEST_F(FarFieldEdges, anyScale) {
     }
 }
 
-TEST_F(FarFieldEdges, orthographicIsTheSameRoom) {
-    // Under parallel rays a step, seen from above: pixels near its foot are dark, those on top are open.
+TEST_F(FarFieldEdges, orthographicStepMatchesTheClosedForm) {
+    // A step seen from above by an orthographic camera: pixels near its foot are dark, those on top are open.
     Room room;
     room.width = room.height = 128;
     room.guard = 16;
     room.build();
-    const float scale = 2.0f / (128.0f * 0.02f);  // 2 cm a pixel
+    const float scale = 2.0f / (128.0f * 0.02f);  // 2 cm per px
     const float orthographic[16] = {scale, 0, 0, 0, 0, -scale, 0, 0, 0, 0, -0.01f, 0, 0, 0, 0, 1};
     std::memcpy(room.projection, orthographic, sizeof(orthographic));
     for (size_t i = 0; i < room.depth.size(); ++i) {
@@ -65,7 +65,7 @@ TEST_F(FarFieldEdges, orthographicIsTheSameRoom) {
     for (const char* preset : kPresets) {
         const Picture picture = run(room, values({}, preset), "constant:100");
         ASSERT_TRUE(finite(picture)) << preset;
-        // A wall 1 m high at distance a of an endless floor blocks (1 - a / sqrt(1 + a^2)) / 2; the paper's slabs miss some of it.
+        // A wall 1 m high at distance a on an infinite floor blocks (1 - a / sqrt(1 + a^2)) / 2; the paper's slabs miss some of it.
         for (const uint32_t x : {10u, 30u, 40u}) {
             const double a = 0.02 * (48.0 - x - 0.5);
             EXPECT_NEAR(picture[48 * 96 + x], 0.5 * (1.0 - a / std::sqrt(1.0 + a * a)), preset[0] == 'p' ? 0.09 : 0.05) << preset << " " << a;
@@ -74,12 +74,12 @@ TEST_F(FarFieldEdges, orthographicIsTheSameRoom) {
     }
 }
 
-TEST_F(FarFieldEdges, largePicturesWidenTheirIntervals) {
+TEST_F(FarFieldEdges, largeImagesWidenTheirIntervals) {
     const ao::FarFieldGrid grid = ao::farFieldGrid({4916, 2766}, 32, 3, 1, ao::Averaging::prefixSums, 16384);
     EXPECT_GT(grid.interval, 3u);
     EXPECT_LE(grid.bytes, ao::kMostBytes);
     EXPECT_EQ(ao::farFieldGrid({1536, 864}, 8, 5, 1, ao::Averaging::pyramid, 16384).interval, 5u);
-    EXPECT_LE(ao::farFieldGrid({4916, 2766}, 16, 3, 1, ao::Averaging::pyramid, 4096).rows, 4096u);  // as much as every device takes
+    EXPECT_LE(ao::farFieldGrid({4916, 2766}, 16, 3, 1, ao::Averaging::pyramid, 4096).rows, 4096u);  // the maximum size that every device supports
 }
 
 }  // namespace

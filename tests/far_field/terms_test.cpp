@@ -1,7 +1,7 @@
-// The estimator's parts: the falloff's table against its integrals, widths of sectors, planes, and the grids in memory.
+// Terms of the estimator: the falloff table against its integrals, sector widths, planes, and the grids in memory.
 #include <bit>
 
-#include "far_field/bench.h"
+#include "far_field/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -11,7 +11,7 @@ constexpr uint32_t kColumns = 64, kRows = 128;
 
 struct Table {
     std::vector<uint16_t> halves;
-    // A0, A1, A2 at a column's own angle, or at the next one's.
+    // A0, A1, A2 at a column's angle, or at the next column's.
     double at(uint32_t column, uint32_t row, int which, bool next = false) const {
         return halfToFloat(halves[(size_t(row) * kColumns + column) * 8 + 2 * which + (next ? 1 : 0)]);
     }
@@ -38,7 +38,7 @@ protected:
                 const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kColumns, kRows, 1}};
                 c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
             });
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_graph->execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
+        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor->execute(*m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
         std::memcpy(result.halves.data(), back.mapped(), result.halves.size() * 2);
         return result;
     }
@@ -88,7 +88,7 @@ TEST_F(FalloffTableTest, knownValuesAndSymmetry) {
     }
 }
 
-TEST_F(FarFieldTest, theTableIsMadeOnlyWhenTheFalloffChanges) {
+TEST_F(FarFieldTest, tableIsFilledOnlyWhenTheFalloffChanges) {
     const Room room = crease();
     run(room, values({}), "exponential:1");
     EXPECT_TRUE(m_passes.count("far_field.table"));
@@ -101,9 +101,9 @@ TEST_F(FarFieldTest, theTableIsMadeOnlyWhenTheFalloffChanges) {
     EXPECT_EQ(run(room, values({}), "exponential:2"), one);
 }
 
-// At the bottom of a hole one pixel wide everything is blocked, whichever way its floor leans: what is missing from 1 is what K planes make
-// of a hemisphere, and widths of sectors that add up to less or more than the whole way around.
-TEST_F(FarFieldTest, aBlockedHemisphereIsOne) {
+// At the bottom of a hole 1 px wide the whole hemisphere is blocked, for any normal. The deviation from 1 comes from K planes standing for
+// the hemisphere, and from sector widths that do not add up to a full turn.
+TEST_F(FarFieldTest, blockedHemisphereIsOne) {
     struct Case { float directions, most; };
     for (const auto& [directions, most] : {Case{8, 0.072f}, Case{16, 0.020f}, Case{32, 0.009f}}) {
         double sum = 0.0;
@@ -129,10 +129,10 @@ TEST_F(FarFieldTest, planesAreOpen) {
     const Picture improved = run(plane({0.5f, 0.3f, 1}), values({}), "exponential:1"), paper = run(plane({0.5f, 0.3f, 1}), values({}, "paper_16x2"), "exponential:1");
     EXPECT_LT(mean(improved), 0.0006);
     EXPECT_LT(highest(paper), 0.0045f);
-    EXPECT_LT(highest(run(plane({0, 1, 0}), values({}), "exponential:1")), 0.02f);  // a floor up to its horizon
+    EXPECT_LT(highest(run(plane({0, 1, 0}), values({}), "exponential:1")), 0.02f);  // a floor up to the horizon
 }
 
-TEST(FarFieldGrid, levelsDoNotOverlapAndOppositesMirror) {
+TEST(FarFieldGrid, levelsDoNotOverlapAndOppositeDirectionsMirror) {
     for (const ao::Averaging averaging : {ao::Averaging::none, ao::Averaging::prefixSums, ao::Averaging::pyramid}) {
         for (const shared::uvec2 size : {shared::uvec2{8, 8}, {97, 61}, {384, 216}, {1536, 864}, {4916, 2766}}) {
             for (const uint32_t directions : {4u, 7u, 8u, 18u, 32u}) {
@@ -161,8 +161,8 @@ TEST(FarFieldGrid, levelsDoNotOverlapAndOppositesMirror) {
     }
 }
 
-TEST(FarFieldGrid, memory) {
-    printf("bytes of far_field's cells, MB (beside them: the table, 128 KB, and pictures of the visible size)\n");
+TEST(FarFieldGrid, memoryMatchesTheGrid) {
+    printf("memory of far_field's grids, MB (without the table, 128 KB, and images of the visible size)\n");
     for (const shared::uvec2 size : {shared::uvec2{768, 432}, {1536, 864}, {2304, 1296}, {4916, 2766}}) {
         for (const auto& [directions, interval, averaging, name] : {std::tuple{12u, 5u, ao::Averaging::pyramid, "default"}, {8u, 5u, ao::Averaging::pyramid, "8x4"}, {18u, 5u, ao::Averaging::pyramid, "fast"},
                                                                     {8u, 10u, ao::Averaging::prefixSums, "paper_8x2"}, {16u, 10u, ao::Averaging::prefixSums, "paper_16x2"}}) {

@@ -1,10 +1,10 @@
-// Surfaces of finite thickness, and directions turned from pixel to pixel.
-#include "far_field/bench.h"
+// Finite thickness, and directions rotated from pixel to pixel (jitter).
+#include "far_field/fixture.h"
 
 namespace obscura::test {
 namespace {
 
-// A board `width` pixels across floats 1 m in front of a wall that is 4 m away.
+// A board `width` px wide, 1 m in front of a wall at 4 m.
 Room board(uint32_t width) {
     Room room = plane({0, 0, 1});
     for (size_t i = 0; i < room.depth.size(); ++i) room.depth[i] = 4.0f;
@@ -25,8 +25,8 @@ protected:
     Picture thin(const Room& room, float thickness, float jitter = 0.0f) { return run(room, values({{"thickness", thickness}, {"jitter", jitter}, {"interval", 3}}, "thin"), falloff); }
 };
 
-// Bins cannot tell a surface of 100 m from an endless one: the paper's single horizon and slabs, to the width of a bin.
-TEST_F(FarFieldThin, thickEnoughIsEndless) {
+// A thickness of 100 m gives the result of infinite thickness, a single horizon with the paper's slabs, within the width of a bin.
+TEST_F(FarFieldThin, largeThicknessEqualsInfinite) {
     const Room room = crease();
     const Picture endless = run(room, values({{"directions", 16}, {"segments", 1}, {"averaging", 0}, {"estimator", 0}}), falloff);
     const Picture thick = run(room, values({{"thickness", 100}, {"jitter", 0}}, "thin"), falloff);
@@ -34,7 +34,7 @@ TEST_F(FarFieldThin, thickEnoughIsEndless) {
     EXPECT_GT(mean(endless), 0.05);
 }
 
-TEST_F(FarFieldThin, thinnerBlocksLess) {
+TEST_F(FarFieldThin, smallerThicknessBlocksLess) {
     const Room room = board(20);
     double before = 0.0;
     for (const float thickness : {0.02f, 0.1f, 0.3f, 1.0f, 10.0f}) {
@@ -42,13 +42,13 @@ TEST_F(FarFieldThin, thinnerBlocksLess) {
         EXPECT_GT(now, before) << thickness;
         before = now;
     }
-    // A board as thin as paper blocks what it covers, seen from the wall beside it: little next to a wall of it.
+    // A board 2 cm thick blocks only the solid angle that it covers, much less than one 10 m thick.
     EXPECT_LT(mean(thin(room, 0.02f)), 0.35 * mean(thin(room, 10.0f)));
     m_method = "mipmap";
     EXPECT_LT(mean(run(room, values({{"thickness", 0.05f}, {"jitter", 0}}, "thin"), falloff)), 0.7 * mean(run(room, values({{"thickness", 10}, {"jitter", 0}}, "thin"), falloff)));
 }
 
-TEST_F(FarFieldThin, jitterIsNoiseAroundTheSamePicture) {
+TEST_F(FarFieldThin, jitterAddsNoiseAndKeepsTheMean) {
     const Room room = board(20);
     const Picture still = thin(room, 1.0f), turned = thin(room, 1.0f, 1.0f);
     EXPECT_NE(still, turned);
@@ -58,8 +58,8 @@ TEST_F(FarFieldThin, jitterIsNoiseAroundTheSamePicture) {
 TEST_F(FarFieldThin, directSamplesNeedNoScan) {
     const Room room = board(20);
     const Picture direct = run(room, values({{"averaging", 3}, {"jitter", 0}}, "thin"), falloff);
-    EXPECT_EQ(m_graph->planText().find("far_field.scan"), std::string::npos);
-    EXPECT_LT(mean(direct), mean(run(room, values({{"jitter", 0}}, "thin"), falloff)));  // what stands between samples is missed
+    EXPECT_EQ(m_executor->plan().text(m_graph->recording()).find("far_field.scan"), std::string::npos);
+    EXPECT_LT(mean(direct), mean(run(room, values({{"jitter", 0}}, "thin"), falloff)));  // occluders between samples are missed
     EXPECT_GT(mean(direct), 0.002);
 }
 

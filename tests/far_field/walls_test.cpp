@@ -1,10 +1,10 @@
-// A wall on a floor, whose obscurance is known exactly, and what parameters must and must not change there.
-#include "far_field/bench.h"
+// A wall on a floor against its exact obscurance, and the influence of the parameters there.
+#include "far_field/fixture.h"
 
 namespace obscura::test {
 namespace {
 
-// Obscurance of a floor point `a` metres from an endless wall, exponential falloff of 1 m: (2/pi) int_0^1 e^(-a/m) sqrt(1 - m^2) dm.
+// Obscurance of a floor point `a` metres from an infinite wall, exponential falloff of 1 m: (2/pi) int_0^1 e^(-a/m) sqrt(1 - m^2) dm.
 double exactAtWall(double a) {
     const int n = 4000;
     double sum = 0.0;
@@ -15,7 +15,7 @@ double exactAtWall(double a) {
     return sum * 2.0 / 3.14159265358979 / n;
 }
 
-// Mean over a row's middle, where the wall's ends are out of reach.
+// Mean over the middle of a row, where the ends of the wall are out of reach.
 double row(const Room& room, const Picture& picture, uint32_t y) {
     double sum = 0.0;
     const uint32_t width = room.visibleWidth();
@@ -23,9 +23,9 @@ double row(const Room& room, const Picture& picture, uint32_t y) {
     return sum / double(width / 2);
 }
 
-TEST_F(FarFieldTest, anEndlessWallIsFoundAtEveryDistance) {
+TEST_F(FarFieldTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
     for (const auto& [a, exact] : {std::pair{0.1, 0.34128}, {0.5, 0.13836}, {1.0, 0.05758}}) EXPECT_NEAR(exactAtWall(a), exact, 1e-4);
-    const Room room = crease();  // the wall's ends are missing, a hundredth; interleaved pixels see the crease's two rows as one surface less well
+    const Room room = crease();  // the image cuts off the ends of the wall, 0.01; interleaving is less accurate at the crease
     struct Case { const char* preset; double tolerance; };
     for (const auto& [preset, tolerance] : {Case{"default", 0.018}, Case{"fast", 0.07}, Case{"paper_16x2", 0.04}}) {
         const Picture picture = run(room, values({}, preset), "exponential:1");
@@ -41,8 +41,8 @@ TEST_F(FarFieldTest, anEndlessWallIsFoundAtEveryDistance) {
     }
 }
 
-// One walk serves two opposite directions, each of which keeps its own second height: a picture turned by half a turn is the same.
-TEST_F(FarFieldTest, halfATurnChangesNothing) {
+// One scan serves two opposite directions, each with its own second height: rotating the image by half a turn changes nothing.
+TEST_F(FarFieldTest, rotationByHalfATurnChangesNothing) {
     const Room room = crease();
     Room turned = room;
     std::reverse(turned.depth.begin(), turned.depth.end());
@@ -60,13 +60,13 @@ TEST_F(FarFieldTest, halfATurnChangesNothing) {
     }
 }
 
-TEST_F(FarFieldTest, anOddNumberOfDirectionsWalksAlone) {
+TEST_F(FarFieldTest, oddNumberOfDirectionsMatchesEven) {
     const Room room = crease();
     const double even = mean(run(room, values({{"directions", 8}}), "exponential:1")), odd = mean(run(room, values({{"directions", 9}}), "exponential:1"));
     EXPECT_NEAR(odd, even, 0.03 * even);
 }
 
-TEST_F(FarFieldTest, everyParameterLeavesTheLimitWhereItIs) {
+TEST_F(FarFieldTest, parametersDoNotChangeTheLimit) {
     const Room room = crease();
     const double limit = mean(run(room, values({{"directions", 32}, {"segments", 4}, {"near", 16}}), "exponential:1"));
     EXPECT_GT(limit, 0.05);
@@ -89,14 +89,14 @@ TEST_F(FarFieldTest, nearAndFarFieldAddUp) {
     for (size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(near[i] + far[i], both[i], 0.002) << i;
     EXPECT_GT(mean(near), 0.002);
     EXPECT_GT(mean(far), 0.03);
-    EXPECT_GT(mean(run(room, values({{"near", 0}}), "exponential:1")), mean(far));  // with no near field, nothing hides what is far
+    EXPECT_GT(mean(run(room, values({{"near", 0}}), "exponential:1")), mean(far));  // without the near field, nothing hides distant occluders
 }
 
-TEST_F(FarFieldTest, passesAreThePapers) {
+TEST_F(FarFieldTest, presetsRunTheirPasses) {
     const Room room = crease();
     const auto ran = [&](const char* preset, std::initializer_list<const char*> with, std::initializer_list<const char*> without) {
         run(room, values({}, preset), "exponential:1");
-        const std::string plan = m_graph->planText();
+        const std::string plan = m_executor->plan().text(m_graph->recording());
         for (const char* pass : with) EXPECT_NE(plan.find(std::string("far_field.") + pass), std::string::npos) << preset << " " << pass;
         for (const char* pass : without) EXPECT_EQ(plan.find(std::string("far_field.") + pass), std::string::npos) << preset << " " << pass;
     };
@@ -105,7 +105,7 @@ TEST_F(FarFieldTest, passesAreThePapers) {
     ran("paper_saao", {"scan", "prefix sums", "near field", "box average", "obscurance", "blur"}, {"pyramid"});
 }
 
-TEST_F(FarFieldTest, everyPresetTwiceIsTheSameToTheBit) {
+TEST_F(FarFieldTest, everyPresetIsDeterministic) {
     const Room room = crease(160, 120, 16);
     for (const ao::Preset& preset : ao::findMethod("far_field")->presets)
         EXPECT_EQ(run(room, values({}, preset.id), "exponential:1"), run(room, values({}, preset.id), "exponential:1")) << preset.id;

@@ -1,4 +1,4 @@
-// Parts as files, joined, and what their tables say.
+// Chunks of a flythrough run: files, joining, summaries; the stability gate.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ Part part(uint32_t first, uint32_t end) {
     return p;
 }
 
-TEST(Parts, survivesItsFile) {
+TEST(Parts, roundTripsThroughItsFile) {
     const auto file = std::filesystem::temp_directory_path() / "obscura-part-test.json";
     const Part written = part(0, 5);
     std::ofstream(file) << partText(written);
@@ -41,7 +41,7 @@ TEST(Parts, survivesItsFile) {
     EXPECT_FALSE(readPart(file));
 }
 
-TEST(Parts, joinedInAnyOrderAreTheWhole) {
+TEST(Parts, joinInAnyOrder) {
     const std::vector<Part> whole = joined({part(4, 6), part(0, 4)});
     ASSERT_EQ(whole.size(), 1u);
     EXPECT_EQ(whole[0].frames.size(), 6u);
@@ -50,7 +50,7 @@ TEST(Parts, joinedInAnyOrderAreTheWhole) {
     EXPECT_EQ(whole[0].events.size(), 1u);
 }
 
-TEST(Parts, gapsOverlapsAndStrangersAreToldApart) {
+TEST(Parts, gapsOverlapsAndOtherSettingsAreErrors) {
     const auto complaint = [](std::vector<Part> parts) {
         try {
             joined(std::move(parts));
@@ -59,12 +59,12 @@ TEST(Parts, gapsOverlapsAndStrangersAreToldApart) {
     };
     EXPECT_NE(complaint({part(0, 4), part(5, 6)}).find("missing"), std::string::npos);
     EXPECT_NE(complaint({part(0, 4), part(3, 6)}).find("twice"), std::string::npos);
-    Part stranger = part(4, 6);
-    stranger.key = "other";
-    EXPECT_NE(complaint({part(0, 4), stranger}).find("different settings"), std::string::npos);
+    Part other = part(4, 6);
+    other.key = "other";
+    EXPECT_NE(complaint({part(0, 4), other}).find("different settings"), std::string::npos);
 }
 
-TEST(Parts, summaryIsOfFramesThatHaveOneBefore) {
+TEST(Parts, summaryIgnoresTheFirstFrame) {
     const Summary s = summarize(part(0, 5));
     EXPECT_NEAR(s.eA, 0.2, 1e-6);
     EXPECT_NEAR(s.difference, 0.04, 1e-6);
@@ -76,22 +76,22 @@ TEST(Parts, summaryIsOfFramesThatHaveOneBefore) {
     EXPECT_EQ(summarize(part(4, 6)).t90, 3u);
 }
 
-TEST(Calm, survivesItsFileAndFailsWhatWorsens) {
-    Calm held;
+TEST(Calm, roundTripsAndFailsWhenWorse) {
+    Calm baseline;
     const CalmKey hbao{"hbao", "default", "teleport", "temporal"};
-    held.rows[hbao] = {0.0100, 0.0010, 4};
+    baseline.rows[hbao] = {0.0100, 0.0010, 4};
     const auto file = std::filesystem::temp_directory_path() / "obscura-calm-test.json";
-    std::ofstream(file) << calmText(held);
-    EXPECT_EQ(calmText(readCalm(file)), calmText(held));
+    std::ofstream(file) << calmText(baseline);
+    EXPECT_EQ(calmText(readCalm(file)), calmText(baseline));
     std::filesystem::remove(file);
 
-    const auto lines = [&](CalmRow row) { return judge(held, {{hbao, row}}).size(); };
+    const auto lines = [&](CalmRow row) { return judge(baseline, {{hbao, row}}).size(); };
     EXPECT_EQ(lines({0.0100, 0.0010, 4}), 0u);
     EXPECT_EQ(lines({0.0104, 0.0010, 4}), 0u);
     EXPECT_EQ(lines({0.0106, 0.0010, 4}), 1u);
     EXPECT_EQ(lines({0.0050, 0.0010, 5}), 1u);
     EXPECT_EQ(lines({0.0106, 0.0012, 5}), 3u);
-    EXPECT_EQ(judge(held, {{{"new", "default", "teleport", "temporal"}, {}}}).size(), 1u);
+    EXPECT_EQ(judge(baseline, {{{"new", "default", "teleport", "temporal"}, {}}}).size(), 1u);
 }
 
 }  // namespace

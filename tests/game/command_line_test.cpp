@@ -1,4 +1,4 @@
-// Bad input ends in one line that says what, where and what to do, and exit code 2; lists and help are complete.
+// The command line: invalid input prints one line with cause, place and remedy, and exits with 2; lists and help are complete.
 #include <algorithm>
 #include <fstream>
 
@@ -24,7 +24,7 @@ struct Bad {
     std::vector<std::string> says;
 };
 
-TEST(CommandLine, BadOptionsEndInOneLine) {
+TEST(CommandLine, InvalidOptionsPrintOneLine) {
     const Bad cases[] = {
         {{"--heedless"}, {"--heedless", "did you mean --headless?"}},
         {{"sponza"}, {"sponza", "--help"}},
@@ -68,7 +68,7 @@ TEST(CommandLine, BadOptionsEndInOneLine) {
     }
 }
 
-TEST(CommandLine, BadFilesEndInOneLine) {
+TEST(CommandLine, InvalidFilesPrintOneLine) {
     const auto folder = freshFolder("bad-files");
     const std::string scene = writeSmallScene(folder).string();
     const std::string text = (folder / "text.glb").string(), camera = (folder / "camera.json").string(), path = (folder / "path.json").string();
@@ -110,7 +110,7 @@ TEST(CommandLine, RegistryAsJson) {
             EXPECT_GE(parameter.at("maximum").get<double>(), parameter.at("initial").get<double>());
             EXPECT_FALSE(parameter.at("sentence").get<std::string>().empty());
         }
-        // What the JSON names can be set.
+        // Parameters named in the JSON can be set.
         EXPECT_EQ(run({"--list-scenes", "--method", method.at("id"), "--preset", method.at("presets").back().at("id")}).code, 0);
     }
 }

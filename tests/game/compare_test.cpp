@@ -1,4 +1,4 @@
-// Two settings on one frame: each side is what that setting alone would have drawn, and costs nothing while it is off.
+// Comparing two settings on one frame: each side equals the image of that setting alone; switched off, it adds no pass.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ protected:
         m_scene = writeSmallScene(m_folder).string();
     }
     void TearDown() override { fs::remove_all(m_folder); }
-    // The last of three frames, so that histories have a say.
+    // The last of three frames, so that history has an influence.
     Decoded shoot(const std::string& name, std::vector<std::string> more) {
         std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--size", "97x54", "--frames", "3", "--falloff", "quadratic:1", "--screenshot", file(name)};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -42,7 +42,7 @@ std::vector<std::string> with(std::vector<std::string> list, const std::vector<s
     return list;
 }
 
-TEST_F(Compare, EitherSideIsThatMethodsOwnPicture) {
+TEST_F(Compare, EitherSideEqualsTheMethodAlone) {
     for (const char* view : {"final", "visibility"}) {
         const Decoded a = shoot("a.png", with(kA, {"--view", view})), b = shoot("b.png", with(kB, {"--view", view}));
         ASSERT_NE(a.rgb, b.rgb);
@@ -71,7 +71,7 @@ TEST_F(Compare, DifferenceViewsShowSizeAndSign) {
     size_t lighter = 0, darker = 0;
     for (size_t i = 0; i < a.rgb.size(); i += 3) {
         const int d = int(a.rgb[i]) - int(b.rgb[i]);
-        EXPECT_NEAR(double(size.rgb[i]), std::min(255.0, 2.0 * std::abs(d)), 3.0);  // of two rounded pictures, doubled
+        EXPECT_NEAR(double(size.rgb[i]), std::min(255.0, 2.0 * std::abs(d)), 3.0);  // difference of two rounded images, doubled
         if (std::abs(d) < 8) continue;
         // Orange where A is lighter, blue where it is darker.
         EXPECT_EQ(sign.rgb[i] > sign.rgb[i + 2], d > 0) << d;
@@ -80,10 +80,10 @@ TEST_F(Compare, DifferenceViewsShowSizeAndSign) {
     EXPECT_GT(lighter, 0u);
     EXPECT_GT(darker, 0u);
     const Decoded none = shoot("none.png", {"--method", "hbao", "--compare", "hbao", "--view", "difference"});
-    EXPECT_EQ(*std::max_element(none.rgb.begin(), none.rgb.end()), 0) << "one method twice is no difference";
+    EXPECT_EQ(*std::max_element(none.rgb.begin(), none.rgb.end()), 0) << "a method compared with itself differs nowhere";
 }
 
-TEST_F(Compare, PassesTellWhoseTheyAre) {
+TEST_F(Compare, PassNamesHaveThePrefixOfTheirSide) {
     const auto passes = [&](const std::vector<std::string>& options) {
         shoot("x.png", with(options, {"--frames", "6", "--out", file("out")}));
         std::string names;

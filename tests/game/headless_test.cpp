@@ -1,4 +1,4 @@
-// Runs without a window: whole pictures of the right size, the same bytes each time, a summary, animation and cameras.
+// Headless runs: complete images of the right size, deterministic bytes, summary, animation and cameras.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -32,7 +32,7 @@ protected:
     std::string m_scene;
 };
 
-TEST_F(Headless, ScreenshotIsWholeAndOfItsSize) {
+TEST_F(Headless, ScreenshotIsCompleteAndHasItsSize) {
     const Ran ran = shoot("a.png", {"--validation", "sync"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
@@ -67,7 +67,7 @@ TEST_F(Headless, ObscuranceDarkensTheFootOfTheBox) {
     ASSERT_EQ(shoot("v.png", {"--view", "visibility", "--falloff", "quadratic:1", "--eye", "-1,2,4", "--target", "-1,0,0.5"}).code, 0);
     const Decoded v = decodePng(file("v.png"));
     ASSERT_FALSE(v.rgb.empty());
-    // The box's foot is right of the middle of the picture, above it; the floor far in front is open.
+    // The foot of the box is right of and above the middle of the image; the floor far in front is open.
     const auto at = [&](int x, int y) { return int(v.rgb[size_t(y * v.width + x) * 3]); };
     int darkest = 255;
     for (int y = 20; y < 40; ++y)
@@ -90,7 +90,7 @@ TEST_F(Headless, OutHoldsFramesSummaryAndTimings) {
     EXPECT_TRUE(found);
     const std::string page = bytesOf(m_folder / "out" / "summary.html");
     EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
-    EXPECT_EQ(page.find("src=\"http"), std::string::npos) << "the page must stand alone";
+    EXPECT_EQ(page.find("src=\"http"), std::string::npos) << "the page must not load external resources";
     EXPECT_NE(page.find("gbuffer"), std::string::npos);
     EXPECT_NE(ran.out.find("gbuffer"), std::string::npos);
 }
@@ -106,7 +106,7 @@ TEST_F(Headless, CamerasFromFilesAndPaths) {
     EXPECT_NE(bytesOf(file("a.png")), bytesOf(file("c.png")));
 }
 
-TEST_F(Headless, OddUnitsAreFitted) {
+TEST_F(Headless, UnusualUnitsAreFitted) {
     writeSmallScene(m_folder, 1000.0f);
     const Ran large = shoot("large.png", {});
     EXPECT_EQ(large.code, 0) << large.err;
@@ -122,9 +122,9 @@ TEST_F(Headless, SwitchTestReports) {
 }
 
 TEST_F(Headless, MissingContentSaysHowToGetIt) {
-    // The dragon is nobody's to generate; wherever it is missing the line must help.
+    // The dragon cannot be generated: where it is missing, the error must say how to get it.
     const Ran list = run({"--list-scenes"});
-    if (list.out.find("missing: put scenes/dragon.glb") == std::string::npos) GTEST_SKIP() << "dragon.glb is there";
+    if (list.out.find("missing: put scenes/dragon.glb") == std::string::npos) GTEST_SKIP() << "dragon.glb exists";
     const Ran ran = run({"--headless", "--scene", "dragon"});
     EXPECT_EQ(ran.code, 2);
     EXPECT_NE(ran.err.find("OBSCURA_CONTENT"), std::string::npos) << ran.err;

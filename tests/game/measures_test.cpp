@@ -1,4 +1,4 @@
-// Live measures: the numbers of obscura-flythrough, from the game's own frames and the references which that has cached.
+// Live measures of the game against obscura-flythrough, with the references cached by the latter.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -64,7 +64,7 @@ protected:
     std::string m_scene, m_path;
 };
 
-TEST_F(LiveMeasures, AgreeWithTheFlythroughToolOnItsReferences) {
+TEST_F(LiveMeasures, AgreeWithTheFlythroughTool) {
     const fs::path flown = m_folder / "flown";
     const Ran tool = run({"--flythrough", m_path, "--length", "5", "--size", "64x36", "--rays", "256", "--falloff", "quadratic:1", "--method", "hbao", "--set",
                           "denoise=0", "--filter", "spatial", "--no-pictures", "--out", flown.string()}, OBSCURA_FLYTHROUGH);
@@ -79,14 +79,14 @@ TEST_F(LiveMeasures, AgreeWithTheFlythroughToolOnItsReferences) {
                                                            {"flicker_of_error", "F_e"}};
     for (size_t i = 0; i < 5; ++i)
         for (const auto& [theirs, ours] : columns) {
-            if (i == 0 && got[i][ours].empty()) continue;  // nothing came before
+            if (i == 0 && got[i][ours].empty()) continue;  // no previous frame
             ASSERT_FALSE(got[i].at(ours).empty()) << ours << " of frame " << i;
             EXPECT_NEAR(std::stod(wanted[i].at(theirs)), std::stod(got[i].at(ours)), 1e-4) << ours << " of frame " << i;
         }
     EXPECT_GT(std::stod(got[4].at("eA")), 0.005);
     EXPECT_GT(std::stod(got[4].at("D_A")), 0.0005);
 
-    // Another falloff, time, size or world: no reference. Three times the size: every third pixel looks where those did.
+    // Another falloff, time, size or world has no reference. At three times the size every third pixel has the same view ray.
     const std::vector<std::string> none{"--path", m_path, "--frames", "1", "--method", "none"};
     const auto referenced = [&](std::vector<std::string> more) {
         more.insert(more.begin(), none.begin(), none.end());
@@ -98,21 +98,21 @@ TEST_F(LiveMeasures, AgreeWithTheFlythroughToolOnItsReferences) {
     EXPECT_FALSE(referenced({"--size", "72x36"}));
 }
 
-TEST_F(LiveMeasures, EveryFewPixelsOfALargerPictureMeetASmallOnesReference) {
+TEST_F(LiveMeasures, LargerImagesUseASmallReferenceAtEveryNthPixel) {
     const Ran tool = run({"--flythrough", m_path, "--length", "2", "--size", "160x90", "--rays", "64", "--falloff", "quadratic:1", "--method", "none", "--filter", "raw",
                           "--no-pictures", "--out", (m_folder / "flown").string()}, OBSCURA_FLYTHROUGH);
     ASSERT_EQ(tool.code, 0) << tool.err;
     const Ran small = play("small", {"--path", m_path, "--frames", "2", "--size", "160x90", "--method", "none"});
     const Ran large = play("large", {"--path", m_path, "--frames", "2", "--size", "480x270", "--method", "none"});
-    EXPECT_NE(small.out.find("160 x 90 pixels, every 1; 2 of 2"), std::string::npos) << small.out;
-    EXPECT_NE(large.out.find("160 x 90 pixels, every 3; 2 of 2"), std::string::npos) << large.out;
-    // Without obscurance the error is the reference's own: the same pixels, or it differs.
+    EXPECT_NE(small.out.find("160 x 90 pixels, step 1 px; 2 of 2"), std::string::npos) << small.out;
+    EXPECT_NE(large.out.find("160 x 90 pixels, step 3 px; 2 of 2"), std::string::npos) << large.out;
+    // Without obscurance the error depends only on the reference, so both sizes must use the same pixels.
     Table a = measures("small"), b = measures("large");
     for (size_t i = 0; i < 2; ++i) EXPECT_NEAR(std::stod(a[i].at("eA")), std::stod(b[i].at("eA")), 2e-4) << i;
     EXPECT_NEAR(std::stod(a[1].at("share")), std::stod(b[1].at("share")), 0.02);
 }
 
-TEST_F(LiveMeasures, NoiseIsThatOfStillFrames) {
+TEST_F(LiveMeasures, NoiseIsMeasuredOnStillFrames) {
     const std::vector<std::string> still{"--size", "64x36", "--frames", "40", "--step", "0", "--time", "0.4", "--method", "hbao"};
     const auto with = [&](std::vector<std::string> more) {
         more.insert(more.begin(), still.begin(), still.end());
@@ -126,7 +126,7 @@ TEST_F(LiveMeasures, NoiseIsThatOfStillFrames) {
     EXPECT_EQ(rows[79].at("side"), "B");
     EXPECT_GT(std::stod(rows[79].at("noise")), 1e-4);
     EXPECT_GE(std::stod(rows[79].at("noise_p99")), std::stod(rows[79].at("noise")));
-    EXPECT_EQ(rows[79].at("eA"), "") << "nobody traced this";
+    EXPECT_EQ(rows[79].at("eA"), "") << "there is no reference";
 
     play("moving", {"--size", "64x36", "--frames", "40", "--step", "0.001", "--method", "none"});
     for (const auto& row : measures("moving")) EXPECT_EQ(row.at("noise"), "");

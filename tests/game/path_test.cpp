@@ -1,4 +1,4 @@
-// Camera paths: replayed twice they give the same bytes, whole, at fixed steps; obscura-flythrough takes them.
+// Camera paths: recording, replay at fixed steps, deterministic frames.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Recorder, WritesDownAtMostOneKeyAFrameAndComesBackFromItsFile) {
+TEST(Recorder, RecordsAtMostOneKeyAFrameAndRoundTrips) {
     const fs::path folder = freshFolder("recorder");
     game::Recorder recorder;
     recorder.start("toasters");
@@ -45,12 +45,12 @@ TEST(Recorder, WritesDownAtMostOneKeyAFrameAndComesBackFromItsFile) {
         EXPECT_EQ(again.at(time).target, path.at(time).target) << frame;
         EXPECT_EQ(again.at(time).fovY, path.at(time).fovY) << frame;
     }
-    // What was flown is what is flown again: the curve goes through where the camera was.
+    // The replayed curve passes through the recorded positions.
     for (const scene::CameraPath::Key& key : path.keys) EXPECT_LT(glm::length(path.at(key.time).eye - key.eye), 1e-4f);
     fs::remove_all(folder);
 }
 
-TEST(Recorder, AReplayShowsFirstAndLastKey) {
+TEST(Recorder, ReplayShowsFirstAndLastKey) {
     scene::CameraPath path;
     path.keys = {{2.0f, {}, {0, 0, 1}}, {3.0f, {}, {0, 0, 1}}};
     path.loop = false;
@@ -82,22 +82,22 @@ protected:
     std::string m_scene, m_path;
 };
 
-TEST_F(Replay, IsTheSameTwiceAndWhole) {
+TEST_F(Replay, IsDeterministicAndComplete) {
     ASSERT_EQ(fly("a").code, 0);
-    ASSERT_EQ(fly("b", {"--step", "0.5"}).code, 0) << "steps are the replay's own";
+    ASSERT_EQ(fly("b", {"--step", "0.5"}).code, 0) << "a replay ignores --step";
     for (int i = 0; i < 7; ++i) {
         EXPECT_FALSE(frame("a", i).empty()) << i;
         EXPECT_EQ(frame("a", i), frame("b", i)) << i;
         if (i) { EXPECT_NE(frame("a", i), frame("a", i - 1)) << i; }
     }
-    EXPECT_TRUE(frame("a", 7).empty()) << "0.2 s are seven frames";
-    // From the fifth frame on: the same camera and world, another past.
+    EXPECT_TRUE(frame("a", 7).empty()) << "0.2 s have seven frames";
+    // A replay from frame 3 on shows the same camera and world.
     ASSERT_EQ(fly("c", {"--time", "0.4", "--frames", "1", "--method", "none"}).code, 0);
     ASSERT_EQ(fly("d", {"--method", "none"}).code, 0);
     EXPECT_EQ(frame("c", 0), frame("d", 3));
 }
 
-TEST_F(Replay, MistakesAreOneLine) {
+TEST_F(Replay, InvalidInputPrintsOneLine) {
     const Ran both = fly("x", {"--eye", "1,2,3", "--target", "0,0,0"});
     EXPECT_EQ(both.code, 2);
     EXPECT_NE(both.err.find("--path"), std::string::npos) << both.err;

@@ -1,3 +1,4 @@
+// Runs the game as a child process.
 #include "program.h"
 
 #include <cstdlib>
@@ -57,7 +58,7 @@ Ran run(const std::vector<std::string>& arguments, const char* program) {
 Decoded decodePng(const fs::path& file) {
     Decoded decoded;
     const std::string bytes = bytesOf(file);
-    // stb_image is content with a cut-off end; a whole file ends with its last chunk.
+    // stb_image accepts truncated files, so check for the final IEND chunk.
     if (bytes.size() < 12 || bytes.compare(bytes.size() - 8, 4, "IEND") != 0) return decoded;
     int channels = 0;
     unsigned char* texels = stbi_load_from_memory(reinterpret_cast<const unsigned char*>(bytes.data()), int(bytes.size()), &decoded.width, &decoded.height, &channels, 3);

@@ -1,4 +1,4 @@
-// Runs the game as a process of its own and keeps what it printed.
+// Runs the game as a child process and returns its output.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@ struct Ran {
     int code = -1;  // exit code, or 128 + signal
     std::string out, err;
 };
-// With its own cache folder unless OBSCURA_CACHE names one, without a display. The game unless another program is named.
+// Runs the game, or another program, without a display, with its own cache folder unless OBSCURA_CACHE is set.
 Ran run(const std::vector<std::string>& arguments, const char* program = OBSCURA_GAME);
 
-// A folder of this test alone, empty at first.
+// Creates an empty folder for one test.
 std::filesystem::path freshFolder(const std::string& name);
 
 struct Decoded {
     int width = 0, height = 0;
-    std::vector<unsigned char> rgb;  // empty: no whole PNG
+    std::vector<unsigned char> rgb;  // empty: incomplete PNG
 };
 Decoded decodePng(const std::filesystem::path& file);
 std::string bytesOf(const std::filesystem::path& file);

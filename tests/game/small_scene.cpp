@@ -1,3 +1,4 @@
+// Writes the small test scene as glTF.
 #include "small_scene.h"
 
 #include <fstream>
@@ -11,11 +12,11 @@ using Json = nlohmann::json;
 
 std::filesystem::path writeSmallScene(const std::filesystem::path& folder, float scale) {
     const float s = scale;
-    // Floor, then the box's eight corners; its faces share them, flat normals are the loader's business.
+    // Floor, then the eight corners of the box, shared by its faces; the loader computes flat normals.
     const std::vector<float> positions{-4 * s, 0, -4 * s, 4 * s, 0, -4 * s, 4 * s, 0, 4 * s, -4 * s, 0, 4 * s,
                                        -.5f * s, 0, -.5f * s, .5f * s, 0, -.5f * s, .5f * s, 0, .5f * s, -.5f * s, 0, .5f * s,
                                        -.5f * s, s, -.5f * s, .5f * s, s, -.5f * s, .5f * s, s, .5f * s, -.5f * s, s, .5f * s};
-    const std::vector<uint16_t> indices{0, 2, 1, 0, 3, 2,  // from here on the box, counted from its own first corner
+    const std::vector<uint16_t> indices{0, 2, 1, 0, 3, 2,  // from here on the box, relative to its first corner
                                         4, 6, 5, 4, 7, 6, 3, 2, 6, 3, 6, 7, 1, 5, 6, 1, 6, 2, 0, 4, 5, 0, 5, 1, 0, 3, 7, 0, 7, 4};
     const std::vector<float> times{0, 1}, moves{-1 * s, 0, 0, 1 * s, 0, 0};
     std::ofstream bin(folder / "small.bin", std::ios::binary);

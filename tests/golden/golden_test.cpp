@@ -1,5 +1,5 @@
-// Each method's visibility of the toasters, and the final picture, against pictures that somebody looked at. How many pixels may differ
-// by more than a tolerance depends on the driver; each picture's own figures are printed.
+// Each method's visibility of the toasters, and the final image, against reviewed images. The fraction of pixels that may differ by more
+// than a tolerance depends on the driver; the figures of each image are printed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,16 +21,16 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kFolder = fs::path(OBSCURA_SOURCE_DIR) / "tests" / "golden";
 
-// A driver family, by how its device's name begins: a share of the pixels may differ by more than `tolerance`.
+// Limits by driver, selected by the prefix of the device name: this fraction of the pixels may differ by more than `tolerance`.
 struct Family {
     const char* name;
     int tolerance;    // of 255
-    double outliers;  // share of the pixels
+    double outliers;  // fraction of the pixels
 };
 constexpr Family kFamilies[] = {
-    {"llvmpipe", 5, 0.001},     // what the pictures were made with; LLVM 15 and 19, whose rounding differs
-    {"SwiftShader", 5, 0.01},   // rounds elsewhere: single pixels at silhouettes take another sample
-    {"", 5, 0.02},              // any other, GPUs among them: texture filtering and fused arithmetic differ too
+    {"llvmpipe", 5, 0.001},     // made the golden images; LLVM 15 and 19 round differently
+    {"SwiftShader", 5, 0.01},   // rounds differently: some pixels at silhouettes take another sample
+    {"", 5, 0.02},              // others, such as GPUs: texture filtering and fused multiply-add differ as well
 };
 const Family& familyOf(const std::string& output) {
     for (const Family& family : kFamilies)
@@ -60,7 +60,7 @@ void check(const std::string& method, const std::string& view) {
     ASSERT_EQ(ended.code, 0) << command << "\n" << ended.error;
     const Pixels now(target), then(golden);
     ASSERT_TRUE(now.rgb) << target;
-    ASSERT_TRUE(then.rgb) << golden << " is missing: run tests/golden/renew, look at it, commit it";
+    ASSERT_TRUE(then.rgb) << golden << " is missing: run tests/golden/renew, review it, commit it";
     ASSERT_EQ(now.width, then.width);
     ASSERT_EQ(now.height, then.height);
     const size_t count = size_t(now.width) * size_t(now.height);
@@ -79,9 +79,9 @@ void check(const std::string& method, const std::string& view) {
     if (!testing::Test::HasFailure() && !renew) fs::remove(made);
 }
 
-TEST(Golden, finalPicture) { check("hbao", "final"); }
+TEST(Golden, finalImageMatches) { check("hbao", "final"); }
 
-TEST(Golden, visibilityOfEveryMethod) {
+TEST(Golden, visibilityOfEveryMethodMatches) {
     for (const obscura::ao::MethodInfo* info : obscura::ao::methods()) {
         SCOPED_TRACE(info->id);
         check(info->id, "visibility");

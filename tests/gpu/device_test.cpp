@@ -1,3 +1,4 @@
+// gpu::Device: creation, adoption of host handles, deferred destruction, validation, pipeline cache.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,7 +14,7 @@ namespace {
 
 class DeviceTest : public test::GpuTest {};
 
-TEST_F(DeviceTest, IsCreatedWithWhatItNeeds) {
+TEST_F(DeviceTest, IsCreatedWithRequiredFeatures) {
     Device& device = test::device();
     EXPECT_NE(device.instance(), VK_NULL_HANDLE);
     EXPECT_NE(device.handle(), VK_NULL_HANDLE);
@@ -34,7 +35,7 @@ TEST_F(DeviceTest, ListNamesTheDeviceInUse) {
     EXPECT_TRUE(found) << names.front();
 }
 
-TEST_F(DeviceTest, NameChoosesWhateverItsCase) {
+TEST_F(DeviceTest, NameIsCaseInsensitive) {
     DeviceOptions options;
     options.name = test::device().caps().deviceName.substr(1, 5);
     for (char& c : options.name) c = char(std::toupper(c));
@@ -66,7 +67,7 @@ TEST_F(DeviceTest, EnvironmentGivesTheDefaultName) {
     EXPECT_EQ(Device::create({}, error), nullptr);
     DeviceOptions named;
     named.name = test::device().caps().deviceName;
-    EXPECT_NE(Device::create(named, error), nullptr) << "what the program asks for goes before the environment";
+    EXPECT_NE(Device::create(named, error), nullptr) << "the name in DeviceDesc has priority over the environment";
     unsetenv("OBSCURA_DEVICE");
     EXPECT_NE(error.find("no such card"), std::string::npos);
 }
@@ -83,14 +84,14 @@ AdoptedDevice handlesOf(const Device& device) {
     return host;
 }
 
-TEST_F(DeviceTest, AdoptsAnothersHandlesAndLeavesThemAlive) {
+TEST_F(DeviceTest, AdoptsHandlesWithoutDestroyingThem) {
     Device& host = test::device();
     std::string error;
     for (int round = 0; round < 2; ++round) {
         const auto guest = Device::adopt(handlesOf(host), error);
         ASSERT_NE(guest, nullptr) << error;
         EXPECT_EQ(guest->caps().deviceName, host.caps().deviceName);
-        EXPECT_NE(guest->sampler(Filter::linear, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE), VK_NULL_HANDLE);
+        EXPECT_NE(guest->sampler(Sampling::linear), VK_NULL_HANDLE);
         Buffer buffer;
         ASSERT_EQ(Buffer::create(*guest, 64, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Memory::device, "guest", buffer), Status::ok);
         const std::vector<std::byte> bytes(64, std::byte{7});
@@ -109,7 +110,7 @@ TEST_F(DeviceTest, AdoptionWithoutAQueueRefusesUploads) {
     EXPECT_TRUE(test::loggedContains("queue"));
 }
 
-TEST_F(DeviceTest, AdoptionNamesWhatIsMissing) {
+TEST_F(DeviceTest, AdoptionNamesMissingHandlesAndFunctions) {
     std::string error;
     AdoptedDevice host = handlesOf(test::device());
     host.device = VK_NULL_HANDLE;
@@ -126,13 +127,13 @@ TEST_F(DeviceTest, AdoptionNamesWhatIsMissing) {
 
 TEST_F(DeviceTest, SamplersAreCached) {
     Device& device = test::device();
-    const VkSampler a = device.sampler(Filter::linear, VK_SAMPLER_ADDRESS_MODE_REPEAT);
-    EXPECT_EQ(a, device.sampler(Filter::linear, VK_SAMPLER_ADDRESS_MODE_REPEAT));
-    EXPECT_NE(a, device.sampler(Filter::nearest, VK_SAMPLER_ADDRESS_MODE_REPEAT));
-    EXPECT_NE(a, device.sampler(Filter::linear, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE));
+    const VkSampler a = device.sampler(Sampling::linearRepeat);
+    EXPECT_EQ(a, device.sampler(Sampling::linearRepeat));
+    EXPECT_NE(a, device.sampler(Sampling::nearestRepeat));
+    EXPECT_NE(a, device.sampler(Sampling::linear));
 }
 
-TEST_F(DeviceTest, MemoryComesBackOnceTheFramesInFlightHavePassed) {
+TEST_F(DeviceTest, MemoryIsFreedAfterTheFramesInFlight) {
     Device& device = test::device();
     const uint64_t before = device.memoryUse();
     {
@@ -157,7 +158,7 @@ TEST_F(DeviceTest, ValidationMessagesAreCounted) {
     EXPECT_TRUE(test::loggedContains("validation: "));
 }
 
-TEST_F(DeviceTest, SynchronizationHazardsAreSeen) {
+TEST_F(DeviceTest, SynchronizationHazardsAreReported) {
     const auto own = test::makeDevice();
     Buffer buffer;
     ASSERT_EQ(Buffer::create(*own, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Memory::device, "raced", buffer), Status::ok);
@@ -180,7 +181,7 @@ TEST_F(DeviceTest, PipelineCacheFileIsWrittenAndReadAgain) {
     test::logged().clear();
     test::makeDevice(options).reset();
     EXPECT_TRUE(test::logged().empty()) << test::allLogged();
-    EXPECT_EQ(std::filesystem::last_write_time(file), written) << "unchanged, so not written";
+    EXPECT_EQ(std::filesystem::last_write_time(file), written) << "an unchanged cache must not be written";
     size_t entries = 0;
     for (const auto& entry : std::filesystem::directory_iterator(file.parent_path())) entries += entry.exists();
     EXPECT_EQ(entries, 1u) << "a temporary file was left";
@@ -205,7 +206,7 @@ TEST_F(DeviceTest, DamagedPipelineCacheFileIsRejectedAndReplaced) {
         flip.put('\x5a');
     }
     damage("last byte");
-    EXPECT_EQ(std::filesystem::file_size(file), size) << "a good one takes its place";
+    EXPECT_EQ(std::filesystem::file_size(file), size) << "a valid file replaces the damaged one";
     std::filesystem::resize_file(file, size - 3);
     damage("cut short");
     std::filesystem::resize_file(file, 3);

@@ -1,6 +1,6 @@
-// For the leak checker: layers and drivers are unloaded with their instance, and what their own globals still held then
-// looks lost, without a name to suppress it by. Kept in place they are seen for what they are: the validation layer does
-// lose a little with every instance. (Vulkan objects that we lose, the layer itself reports when the device goes.)
+// Keeps Vulkan layers and drivers loaded for the leak checker. Unloaded with their instance, memory held by their globals would be
+// reported as leaked, without symbols that a suppression could name. The validation layer itself leaks a little with every instance.
+// (It reports leaked Vulkan objects when the device is destroyed.)
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__)

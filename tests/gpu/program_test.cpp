@@ -1,3 +1,4 @@
+// gpu::Program: compute and graphics pipelines, specialization, hot reload, error lines.
 #include <bit>
 #include <cstring>
 
@@ -26,7 +27,7 @@ std::string scaleShader(const std::string& expression) {
            "}\n";
 }
 
-// Runs a program of the shape above over 0, 1, 2, ...
+// Runs a program with the interface above on the input 0, 1, 2, ...
 std::vector<float> run(const Program& program, float offset = 0.0f) {
     constexpr uint32_t kCount = 100;
     Device& device = test::device();
@@ -50,7 +51,7 @@ std::vector<float> run(const Program& program, float offset = 0.0f) {
     const VkDescriptorBufferInfo buffers[2] = {{in.handle(), 0, VK_WHOLE_SIZE}, {out.handle(), 0, VK_WHOLE_SIZE}};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set;
-    write.descriptorCount = 2;  // runs on into binding 1
+    write.descriptorCount = 2;  // continues into binding 1
     write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     write.pBufferInfo = buffers;
     vk.UpdateDescriptorSets(device.handle(), 1, &write, 0, nullptr);
@@ -88,7 +89,7 @@ TEST_F(ProgramTest, ComputesWithSpecializationAndPushConstants) {
     for (size_t i = 0; i < result.size(); ++i) ASSERT_EQ(result[i], float(i) * 2.5f + 1.0f);
 }
 
-TEST_F(ProgramTest, HotReloadChangesTheResultAndABrokenShaderDoesNot) {
+TEST_F(ProgramTest, HotReloadIgnoresBrokenShaders) {
     test::TestShaders shaders;
     shaders.write("part.glsl", "float change(float x) { return x + 1.0; }\n");
     const std::string text = scaleShader("change(source.values[i])");
@@ -112,7 +113,7 @@ TEST_F(ProgramTest, HotReloadChangesTheResultAndABrokenShaderDoesNot) {
     EXPECT_FALSE(shaders.library.poll());
     ASSERT_EQ(shaders.library.errors().size(), 1u);
     EXPECT_NE(shaders.library.errors()[0].find("shaders/part.glsl:1: 'y'"), std::string::npos) << shaders.library.errors()[0];
-    EXPECT_FALSE(shaders.library.poll()) << "one attempt an edit";
+    EXPECT_FALSE(shaders.library.poll()) << "one attempt per edit";
     program.refresh();
     EXPECT_EQ(run(program)[10], 12.0f);
 
@@ -123,7 +124,7 @@ TEST_F(ProgramTest, HotReloadChangesTheResultAndABrokenShaderDoesNot) {
     EXPECT_EQ(run(program)[10], 30.0f);
 }
 
-TEST_F(ProgramTest, ReloadThatCannotBecomeAPipelineKeepsTheLast) {
+TEST_F(ProgramTest, FailedPipelineCreationKeepsTheLastPipeline) {
     test::TestShaders shaders;
     shaders.add("scale.comp", scaleShader("source.values[i]"));
     shaders.library.watch(shaders.root(), compileShader);
@@ -140,11 +141,11 @@ TEST_F(ProgramTest, ReloadThatCannotBecomeAPipelineKeepsTheLast) {
     EXPECT_TRUE(test::loggedContains("program 'scale.comp': 160 bytes of push constants")) << test::allLogged();
     const size_t lines = test::logged().size();
     program.refresh();
-    EXPECT_EQ(test::logged().size(), lines) << "said once";
+    EXPECT_EQ(test::logged().size(), lines) << "logged once";
     EXPECT_EQ(run(program)[10], 10.0f);
 }
 
-TEST_F(ProgramTest, MissingOrMistakenShadersAreNamed) {
+TEST_F(ProgramTest, MissingOrInvalidShadersAreNamed) {
     test::TestShaders shaders;
     shaders.add("scale.comp", scaleShader("0.0"));
     Program program;
@@ -190,7 +191,7 @@ TEST_F(ProgramTest, GraphicsMergesItsStages) {
     EXPECT_EQ(program.stages(), both);
     EXPECT_EQ(program.stagesOf(program.bindings()[0]), both);
     EXPECT_EQ(program.stagesOf(program.bindings()[1]), VkShaderStageFlags(VK_SHADER_STAGE_FRAGMENT_BIT));
-    EXPECT_NE(program.setLayout(1), VK_NULL_HANDLE) << "a gap is an empty layout";
+    EXPECT_NE(program.setLayout(1), VK_NULL_HANDLE) << "a gap in the set numbers is an empty layout";
     EXPECT_NE(program.setLayout(2), VK_NULL_HANDLE);
     EXPECT_EQ(program.setLayout(3), VK_NULL_HANDLE);
     EXPECT_EQ(program.pushConstantBytes(), 16u);

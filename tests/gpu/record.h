@@ -1,4 +1,4 @@
-// Records commands that are never submitted, as a host may do with a frame.
+// Records commands that are never submitted.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 namespace obscura::test {
 
-// Calls `record(VkCommandBuffer)` between begin and end of a command buffer of its own, which then goes without having run.
+// Calls `record(VkCommandBuffer)` between begin and end of a new command buffer, then frees the buffer without submitting it.
 template <class Record> void recordAndDrop(gpu::Device& device, Record&& record) {
     const gpu::Api& vk = device.vk();
     const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, device.queueFamily()};

@@ -1,3 +1,4 @@
+// gpu::Buffer and gpu::Image: uploads, downloads, mips, refused descriptions, memory use.
 #include <algorithm>
 #include <cstring>
 
@@ -35,7 +36,7 @@ std::vector<std::byte> readBack(Device& device, const Buffer& buffer) {
     return {staging.mapped(), staging.mapped() + staging.bytes()};
 }
 
-TEST_F(ResourcesTest, DeviceBufferKeepsWhatIsUploaded) {
+TEST_F(ResourcesTest, DeviceBufferRoundTrips) {
     Device& device = test::device();
     Buffer buffer;
     ASSERT_EQ(Buffer::create(device, 4096, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Memory::device, "data", buffer), Status::ok);
@@ -68,7 +69,7 @@ TEST_F(ResourcesTest, UploadBeyondTheEndIsRefused) {
     EXPECT_EQ(upload(device, buffer, {}, 64), Status::ok);
 }
 
-TEST_F(ResourcesTest, ImageComesBackAsItWentIn) {
+TEST_F(ResourcesTest, ImageRoundTrips) {
     Device& device = test::device();
     for (VkFormat format : {VK_FORMAT_R8_UNORM, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
         Image image;
@@ -81,7 +82,7 @@ TEST_F(ResourcesTest, ImageComesBackAsItWentIn) {
     }
 }
 
-TEST_F(ResourcesTest, DepthAndVolumeComeBackToo) {
+TEST_F(ResourcesTest, DepthAndVolumeImagesRoundTrip) {
     Device& device = test::device();
     for (const ImageDesc& desc : {ImageDesc{VK_FORMAT_D32_SFLOAT, 16, 9, 1, 1, kTexture}, ImageDesc{VK_FORMAT_R8_UNORM, 8, 4, 6, 1, kTexture}}) {
         Image image;
@@ -112,7 +113,7 @@ TEST_F(ResourcesTest, MipsAreAverages) {
     for (size_t i = 0; i < texels.size(); ++i) texels[i] = std::byte((i / 4) % 2 ? 200 : 100);  // columns
     ASSERT_EQ(upload(device, image, texels, VK_IMAGE_LAYOUT_GENERAL), Status::ok);
     std::vector<std::byte> last;
-    // download() gives mip 0, so the smallest is copied into an image of its own.
+    // download() reads mip 0, so the smallest mip is copied into another image.
     Image one;
     ASSERT_EQ(Image::create(device, {VK_FORMAT_R8G8B8A8_UNORM, 1, 1, 1, 1, kTexture}, "one", one), Status::ok);
     ASSERT_EQ(upload(device, one, pattern(4), VK_IMAGE_LAYOUT_GENERAL), Status::ok);
@@ -127,7 +128,7 @@ TEST_F(ResourcesTest, MipsAreAverages) {
     for (std::byte channel : last) EXPECT_NEAR(int(channel), 150, 2);
 }
 
-TEST_F(ResourcesTest, ImpossibleImagesAreRefusedWithALine) {
+TEST_F(ResourcesTest, InvalidImagesAreRefusedWithALogLine) {
     Device& device = test::device();
     const uint64_t before = device.memoryUse();
     Image image;

@@ -1,4 +1,4 @@
-// No device: shaders as text and as SPIR-V.
+// The shader compiler, its text format and the shader library, without a device.
 #include <algorithm>
 #include <thread>
 
@@ -33,7 +33,7 @@ void writeEverything(test::TestShaders& shaders) {
     shaders.write("ao/everything.comp", kEverything);
 }
 
-TEST(ShaderCompiler, ReflectsWhatIsDeclared) {
+TEST(ShaderCompiler, ReflectsDeclaredInterfaces) {
     test::TestShaders shaders;
     writeEverything(shaders);
     const Shader shader = shaders.compile("ao/everything.comp");
@@ -58,7 +58,7 @@ TEST(ShaderCompiler, ErrorsCarryFileAndLine) {
     test::TestShaders shaders;
     shaders.write("ao/broken.comp", "#version 460\nlayout(local_size_x = 1) in;\nvoid main() {\n    float a = nothing;\n}\n");
     EXPECT_EQ(shaders.compileError("ao/broken.comp"), "shaders/ao/broken.comp:4: 'nothing' : undeclared identifier");
-    // Two messages on one line of code: two lines of text.
+    // Two errors in one line of code give two lines of text.
     shaders.write("ao/broken.comp", "#version 460\nlayout(local_size_x = 1) in;\nstruct S { float a; };\nvoid main() {\n    S s;\n    float a = s.b + vec2(1);\n}\n");
     const std::string error = shaders.compileError("ao/broken.comp");
     EXPECT_TRUE(error.starts_with("shaders/ao/broken.comp:6: 'b' : no such field")) << error;
@@ -78,7 +78,7 @@ TEST(ShaderCompiler, ErrorsInAnIncludeNameTheInclude) {
     EXPECT_NE(error.find("'absent.glsl'"), std::string::npos) << error;
 }
 
-TEST(ShaderCompiler, RefusesWhatTheProjectDoesNotUse) {
+TEST(ShaderCompiler, RefusesUnsupportedFeatures) {
     test::TestShaders shaders;
     const std::string head = "#version 460\nlayout(local_size_x = 1) in;\n";
     shaders.write("array.comp", head + "layout(binding = 0) uniform sampler2D maps[4];\nvoid main() {}\n");
@@ -99,7 +99,7 @@ TEST(ShaderCompiler, RefusesWhatTheProjectDoesNotUse) {
     EXPECT_EQ(shaders.compileError("absent.comp"), "shaders/absent.comp: cannot be read");
 }
 
-TEST(ShaderCompiler, StrippedCodeIsSmallerAndStillWhole) {
+TEST(ShaderCompiler, StrippedCodeIsSmallerAndValid) {
     test::TestShaders shaders;
     writeEverything(shaders);
     const Shader shader = shaders.compile("ao/everything.comp");
@@ -146,7 +146,7 @@ TEST(ShaderText, DescribeAndUndescribeAgree) {
     ASSERT_TRUE(undescribe(text, read)) << text;
     EXPECT_EQ(read.stage, shader.stage);
     EXPECT_EQ(read.workgroup, shader.workgroup);
-    EXPECT_EQ(read.spirv.size(), 3u) << "the code is not the description's business";
+    EXPECT_EQ(read.spirv.size(), 3u) << "undescribe() must not change the code";
     ASSERT_EQ(read.bindings.size(), shader.bindings.size());
     EXPECT_EQ(describe(read), text);
 }
@@ -173,10 +173,10 @@ TEST(ShaderLibraryTest, FindsByNameAndReportsMalformedOnes) {
     EXPECT_EQ(library.generation("absent.comp"), 0u);
     ASSERT_EQ(library.errors().size(), 1u);
     EXPECT_NE(library.errors()[0].find("bad.comp"), std::string::npos);
-    EXPECT_FALSE(library.poll()) << "nothing is watched";
+    EXPECT_FALSE(library.poll()) << "no folder is watched";
 }
 
-TEST(ShaderLibraryTest, RecompilesOnlyWhatAnEditTouches) {
+TEST(ShaderLibraryTest, RecompilesOnlyAffectedShaders) {
     test::TestShaders shaders;
     const std::string head = "#version 460\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer B { float b; };\n";
     shaders.write("common.glsl", "const float kCommon = 1.0;\n");
@@ -201,7 +201,7 @@ TEST(ShaderLibraryTest, RecompilesOnlyWhatAnEditTouches) {
     EXPECT_FALSE(shaders.library.poll()) << "the code is the same";
     EXPECT_EQ(compiled, 3);
     EXPECT_EQ(shaders.library.generation("c.comp"), 1u);
-    // Saving by renaming: for a moment the file is gone.
+    // Saving by renaming: the file is missing for a moment.
     std::filesystem::rename(shaders.root() / "c.comp", shaders.root() / "c.saved");
     EXPECT_FALSE(shaders.library.poll());
     EXPECT_TRUE(shaders.library.errors().empty());

@@ -1,5 +1,5 @@
-// One device for all GPU tests of a program, under core and synchronization validation. Where there is no Vulkan device or
-// no validation layer, `device()` skips the test with the reason. Tests that derive from GpuTest fail on any message.
+// Fixture: one device for all GPU tests of a program, under core and synchronization validation. Without a Vulkan device or
+// validation layer, `device()` skips the test with the reason. Tests that derive from GpuTest fail on any validation message.
 #pragma once
 
 #include <memory>
@@ -17,13 +17,13 @@ inline void PrintTo(Status status, std::ostream* out) { *out << name(status); }
 
 namespace obscura::test {
 
-// Ends the running test as skipped, from however deep: gtest takes this exception for one it has reported already.
+// Skips the running test from any call depth: gtest treats this exception as already reported.
 [[noreturn]] inline void skip(const std::string& reason) {
     [&] { GTEST_SKIP() << reason; }();
     throw testing::AssertionException(testing::TestPartResult(testing::TestPartResult::kSkip, __FILE__, __LINE__, reason.c_str()));
 }
 
-// What all test devices have logged.
+// Lines logged by all test devices.
 inline std::vector<std::string>& logged() {
     static std::vector<std::string> lines;
     return lines;
@@ -39,9 +39,9 @@ inline gpu::Log logger() {
     return [](gpu::Severity, const char* message) { logged().emplace_back(message); };
 }
 
-// A device of one's own, under validation.
+// Creates another device, under validation.
 inline std::unique_ptr<gpu::Device> makeDevice(gpu::DeviceOptions options = {}) {
-    logged();  // built before any device, so gone after them
+    logged();  // constructed before any device, so destroyed after them
     options.validation = options.synchronization = true;
     options.log = logger();
     std::string error;
@@ -84,14 +84,14 @@ private:
     uint64_t m_before = 0;
 };
 
-// Takes the device down at the end, when the layer names what nobody destroyed.
+// Destroys the device at the end, when the validation layer reports leaked objects.
 class DeviceEnvironment : public testing::Environment {
 public:
     void TearDown() override {
         if (!sharedDevice()) return;
         logged().clear();
         sharedDevice().reset();
-        EXPECT_TRUE(logged().empty()) << "left over at the device's end:\n" << allLogged();
+        EXPECT_TRUE(logged().empty()) << "objects leaked at device destruction:\n" << allLogged();
     }
 };
 inline testing::Environment* const kDeviceEnvironment = testing::AddGlobalTestEnvironment(new DeviceEnvironment);

@@ -1,4 +1,4 @@
-// Shaders written by a test: a temporary folder that serves as shaders/, and a library filled from it.
+// Fixture: a temporary shaders/ folder with shaders written by the test, and a library filled from it.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 
 namespace obscura::test {
 
-// An empty folder with a name of its own, gone with the object.
+// An empty temporary folder, removed with the object.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
@@ -39,7 +39,7 @@ class TestShaders {
 public:
     std::filesystem::path root() const { return m_folder.path() / "shaders"; }
 
-    // Writes a file; its time always moves, whatever the clock's grain.
+    // Writes a file and always advances its modification time.
     void write(const std::string& name, const std::string& text) {
         const std::filesystem::path file = root() / name;
         std::filesystem::create_directories(file.parent_path());
@@ -63,7 +63,7 @@ public:
         return error;
     }
 
-    // Writes, compiles and adds to the library, as the build would have embedded it.
+    // Writes a shader, compiles it and adds it to the library like an embedded one.
     void add(const std::string& name, const std::string& text) {
         write(name, text);
         const gpu::Shader shader = compile(name);

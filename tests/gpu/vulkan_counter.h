@@ -1,6 +1,6 @@
-// Counts what is recorded and what is created, by hooks in a device's table of entry points: tests judge work by these counts, never by
-// clocks. In: a device, or a library that adopts the same device and loads its entry points through instanceProc(). One counter at a time,
-// one thread.
+// Counts recorded commands and created objects by hooks in a device's table of entry points. Tests compare work by these counts, not by
+// times. Works on a device, or on a library that adopts the device and loads its entry points through instanceProc(). One counter at a
+// time, one thread.
 #pragma once
 
 #include <algorithm>
@@ -17,17 +17,17 @@
 
 namespace obscura::test {
 
-// A vkCmdDispatch and the state that it ran with.
+// A vkCmdDispatch and its state.
 struct Dispatch {
-    std::string pass;                       // debug label around it; empty where the device has none
+    std::string pass;                       // enclosing debug label; empty without labels
     VkPipeline pipeline = VK_NULL_HANDLE;   // shader and specialization constants
-    uint32_t loops = 0;                     // in the shader's SPIR-V; of pipelines created while a counter was there
+    uint32_t loops = 0;                     // in the shader's SPIR-V; for pipelines created while a counter existed
     std::array<uint32_t, 3> groups{};       // workgroups
-    std::vector<std::byte> constants;       // pushed
+    std::vector<std::byte> constants;       // push constants
     uint64_t workgroups() const { return uint64_t(groups[0]) * groups[1] * groups[2]; }
     bool operator==(const Dispatch&) const = default;
 
-    // A pushed value, `offset` bytes from the first one.
+    // A push constant at `offset` bytes.
     template <class T = uint32_t> T constant(size_t offset) const {
         T value{};
         if (offset + sizeof value <= constants.size()) std::memcpy(&value, constants.data() + offset, sizeof value);
@@ -40,13 +40,13 @@ inline void PrintTo(const Dispatch& d, std::ostream* out) {
     for (size_t i = 0; i + 4 <= d.constants.size(); i += 4) *out << " " << d.constant(i);
 }
 
-// Entry points that create an object, with the type that describes it and the handle.
+// Entry points that create an object, with the types of its create info and handle.
 #define OBSCURA_CREATING(X) \
     X(AllocateMemory, VkMemoryAllocateInfo, VkDeviceMemory) X(CreateImage, VkImageCreateInfo, VkImage) \
     X(CreateImageView, VkImageViewCreateInfo, VkImageView) X(CreateBuffer, VkBufferCreateInfo, VkBuffer) \
     X(CreateSampler, VkSamplerCreateInfo, VkSampler) X(CreateQueryPool, VkQueryPoolCreateInfo, VkQueryPool) \
     X(CreateDescriptorPool, VkDescriptorPoolCreateInfo, VkDescriptorPool) X(CreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)
-// The others that are counted.
+// Other counted entry points.
 #define OBSCURA_COUNTING(X) \
     X(CreateShaderModule) X(CreateComputePipelines) X(CreateGraphicsPipelines) \
     X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT) X(CmdBindPipeline) X(CmdPushConstants) X(CmdDispatch) X(CmdDraw) \
@@ -54,7 +54,7 @@ inline void PrintTo(const Dispatch& d, std::ostream* out) {
 
 class VulkanCounter {
 public:
-    explicit VulkanCounter(gpu::Device& device) : m_table(const_cast<gpu::Api&>(device.vk())) {  // no device is a constant
+    explicit VulkanCounter(gpu::Device& device) : m_table(const_cast<gpu::Api&>(device.vk())) {  // every Device object is non-const
         s_real = m_table;
         s_current = this;
 #define OBSCURA_HOOK(name) if (m_table.name) m_table.name = &VulkanCounter::name;
@@ -70,15 +70,15 @@ public:
     }
     VulkanCounter(const VulkanCounter&) = delete;
 
-    // For a library on the same device; it must be gone before the counter is.
+    // For a library on the same device, which must be destroyed before the counter.
     static PFN_vkVoidFunction VKAPI_CALL instanceProc(VkInstance instance, const char* name) {
         if (!std::strcmp(name, "vkGetDeviceProcAddr")) return reinterpret_cast<PFN_vkVoidFunction>(&deviceProc);
         return s_real.GetInstanceProcAddr(instance, name);
     }
 
-    // Since the counter was made, or cleared.
+    // Since construction or clear().
     std::vector<Dispatch> dispatches;
-    std::vector<std::string> events;          // as recorded: "pass NAME", "end", "timestamp", "full barrier", "barrier", "dispatch", "draw"
+    std::vector<std::string> events;          // in recording order: "pass NAME", "end", "timestamp", "full barrier", "barrier", "dispatch", "draw"
     std::map<std::string, uint64_t> created;  // objects by entry point
     void clear() {
         dispatches.clear();
@@ -97,9 +97,9 @@ public:
         for (const Dispatch& d : dispatches) sum += d.workgroups();
         return sum;
     }
-    // Writes the ticks that timestamps read as, in place of the device's.
+    // Overrides the timestamp values read from query pools.
     std::function<void(std::span<uint64_t>)> ticks;
-    uint32_t queryReads = 0;  // calls of vkGetQueryPoolResults, whatever they return
+    uint32_t queryReads = 0;  // calls of vkGetQueryPoolResults, with any result
 
 private:
     static inline gpu::Api s_real;

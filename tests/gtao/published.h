@@ -1,5 +1,5 @@
-// XeGTAO's formulas as they are published, one pixel after the other, in doubles: what the method's pictures must be. A straight
-// transcription: nothing is shared with the shaders, arc cosines and powers are the library's, nothing is packed.
+// Reference implementation of XeGTAO on the CPU, in double precision. A direct transcription of the published formulas: no code is shared
+// with the shaders, no approximate functions, no packed storage.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,7 +16,7 @@ public:
     static constexpr double kPi = 3.14159265358979;
     static constexpr double kRadiusMultiplier = 1.457, kFalloffRange = 0.615, kDistribution = 2.0, kMipOffset = 3.30, kFinalPower = 2.2, kBeta = 1.2;
 
-    // Obscurance of the visible part. The frame's projection is a symmetric perspective.
+    // Obscurance of the visible part. The projection must be a symmetric perspective.
     Picture run(const Room& room, const ao::Frame& frame) {
         m_width = int(room.width), m_height = int(room.height);
         m_scale = glm::dvec2(1.0 / frame.projection[0], 1.0 / frame.projection[5]);
@@ -38,7 +38,7 @@ public:
         return result;
     }
 
-    // Place along a Hilbert curve through 64x64 pixels.
+    // Index along a Hilbert curve through 64x64 pixels.
     static unsigned hilbert(unsigned x, unsigned y) {
         x %= 64, y %= 64;
         unsigned index = 0;
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    // Level by level, a texel is the mean of four, weighted by how near they are to the farthest.
+    // Depth mips: the mean of four texels, weighted by their closeness to the farthest.
     void buildDepths(const Room& room) {
         const auto level0 = [&](int x, int y) { return double(room.depth[size_t(std::min(y, m_height - 1)) * room.width + std::min(x, m_width - 1)]); };
         const int w = (m_width + 15) / 16 * 16, h = (m_height + 15) / 16 * 16;
@@ -123,10 +123,10 @@ private:
             const double weight = glm::mix(length, 1.0, 0.05), h[2] = {-std::acos(std::clamp(horizon[1], -1.0, 1.0)), std::acos(std::clamp(horizon[0], -1.0, 1.0))};
             for (const double each : h) visibility += weight * (cosNormal + 2.0 * each * std::sin(gamma) - std::cos(2.0 * each - gamma)) / 4.0;
         }
-        return std::min(std::max(0.03, std::pow(std::max(visibility / slices, 0.0), kFinalPower)), 1.5);  // 1.5: all that is stored
+        return std::min(std::max(0.03, std::pow(std::max(visibility / slices, 0.0), kFinalPower)), 1.5);  // 1.5: the maximum that is stored
     }
 
-    // Connection to the left, right, top and bottom, as two bits hold it.
+    // Edge weights to the left, right, top and bottom, quantized to two bits.
     glm::dvec4 edgesAt(int x, int y) const {
         const double z = depth(x, y, 0);
         const glm::dvec4 steps = glm::dvec4(depth(x - 1, y, 0), depth(x + 1, y, 0), depth(x, y - 1, 0), depth(x, y + 1, 0)) - z;

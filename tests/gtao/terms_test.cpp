@@ -1,4 +1,4 @@
-// What arcs that count one by one promise beyond the published method.
+// The preset `tuned`, which sums arcs of single samples: planes and convex solids are open, and the value beside a wall is exact.
 #include "layered/solids.h"
 
 namespace obscura::test {
@@ -17,7 +17,7 @@ protected:
     }
 };
 
-TEST_F(Terms, arcsFindNothingOnWhatIsConvexAndAlone) {
+TEST_F(Terms, arcsLeaveConvexSolidsOpen) {
     const std::vector<std::vector<Solid>> worlds = {{{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}},
                                                     {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}},
                                                     {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
@@ -25,20 +25,20 @@ TEST_F(Terms, arcsFindNothingOnWhatIsConvexAndAlone) {
                                                     {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
     for (size_t i = 0; i < worlds.size(); ++i) {
         EXPECT_LT(highest(run(roomOf(worlds[i]), values({{"mip_offset", 30}}, "tuned"), "ramp:0.385:1")), 0.5f / 255.0f) << "world " << i;
-        EXPECT_LT(mean(run(roomOf(worlds[i]), values({}, "tuned"), "ramp:0.385:1")), 0.001) << "world " << i;  // coarser depths are not quite the plane's
+        EXPECT_LT(mean(run(roomOf(worlds[i]), values({}, "tuned"), "ramp:0.385:1")), 0.001) << "world " << i;  // coarser depths deviate slightly from the plane
     }
-    // The published horizon does: nearest texels of a bare floor raise it.
+    // The published horizon does obscure a bare floor: the nearest texels raise it.
     EXPECT_GT(mean(run(roomOf(worlds[0]), values({}), "ramp:0.385:1")), 0.001);
 }
 
-// A floor before a wall, at places whose obscurance rays tell: slices around the view ray make up the hemisphere.
-TEST_F(Terms, arcsBesideAWall) {
+// A floor before a wall against ray-traced obscurance: slices around the view ray cover the hemisphere.
+TEST_F(Terms, arcsMatchTheReferenceBesideAWall) {
     const std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}};
     const Room room = roomOf(world);
     ao::Falloff rho;
     ASSERT_TRUE(ao::parseFalloff("ramp:0.385:1", rho));
     const Picture fine = run(room, values({{"slices", 16}, {"steps", 32}, {"mip_offset", 30}, {"denoise", 0}, {"radius_scale", 1}, {"power", 1}}, "tuned"), "ramp:0.385:1");
-    int places = 0;
+    int compared = 0;
     for (uint32_t y = room.guard; y < room.height - room.guard; ++y) {
         double found = 0.0, expected = 0.0;
         for (uint32_t x = 60; x < 140; x += 10) {
@@ -47,18 +47,18 @@ TEST_F(Terms, arcsBesideAWall) {
             found += fine[size_t(y - room.guard) * room.visibleWidth() + x - room.guard] / 8.0;
             expected += worldObscurance(world, p, {0, 1, 0}, rho, 1024) / 8.0;
         }
-        places += expected > 0.02;
+        compared += expected > 0.02;
         EXPECT_NEAR(found, expected, 0.012) << "row " << y;
     }
-    EXPECT_GE(places, 2);
+    EXPECT_GE(compared, 2);
 }
 
-TEST_F(Terms, aLongerScaleDarkens) {
+TEST_F(Terms, largerRadiusScaleDarkens) {
     const Room room = roomOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}});
     for (const char* preset : {"default", "tuned"}) {
         const double once = mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:1")), twice = mean(run(room, values({{"radius_scale", 2}}, preset), "quadratic:1"));
         EXPECT_GT(twice, 1.2 * once) << preset;
-        // A falloff of twice the length is the same.
+        // A falloff of twice the length has the same effect.
         EXPECT_NEAR(mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:2")), twice, 1e-4) << preset;
     }
 }

@@ -1,4 +1,4 @@
-// The published preset against the transcription of what was published, 1/255 at most on average.
+// The published presets against the CPU transcription: mean difference below 0.25/255.
 #include "gtao/published.h"
 #include "layered/solids.h"
 
@@ -22,24 +22,24 @@ protected:
     void compare(const char* preset, Published published, const Changes& changes = {}) {
         const Room room = furnished();
         const Picture gpu = run(room, values(changes, preset), "ramp:0.385:1"), cpu = published.run(room, room.frame());
-        ASSERT_GT(mean(cpu), 0.03);  // there is something to see
+        ASSERT_GT(mean(cpu), 0.03);  // the frame has obscurance
         const double apart = meanDifference(gpu, cpu);
-        printf("gtao %s: mean %.4f, apart by %.6f = %.3f/255\n", preset, mean(cpu), apart, apart * 255.0);
+        printf("gtao %s: mean %.4f, difference %.6f = %.3f/255\n", preset, mean(cpu), apart, apart * 255.0);
         EXPECT_LT(apart, 0.25 / 255.0) << preset;
     }
 };
 
-TEST_F(Transcription, high) { compare("high", Published()); }
-TEST_F(Transcription, low) { compare("low", Published(1, 2)); }
-TEST_F(Transcription, medium) { compare("medium", Published(2, 2)); }
-TEST_F(Transcription, ultra) { compare("ultra", Published(9, 3)); }
-TEST_F(Transcription, highWithoutBlur) { compare("high", Published(3, 3, false), {{"denoise", 0}}); }
+TEST_F(Transcription, highMatches) { compare("high", Published()); }
+TEST_F(Transcription, lowMatches) { compare("low", Published(1, 2)); }
+TEST_F(Transcription, mediumMatches) { compare("medium", Published(2, 2)); }
+TEST_F(Transcription, ultraMatches) { compare("ultra", Published(9, 3)); }
+TEST_F(Transcription, highWithoutBlurMatches) { compare("high", Published(3, 3, false), {{"denoise", 0}}); }
 TEST_F(Transcription, defaultIsHigh) { EXPECT_TRUE(values({}) == values({}, "high")); }
 
-// What never ends hides all behind it: with depth layers that say so of everything the published picture comes out, within 32nds of a side.
-TEST_F(Transcription, layersWithoutEnd) {
+// Depth layers of infinite thickness give the published result, within the 1/32 resolution of a side.
+TEST_F(Transcription, infiniteLayersGiveThePublishedResult) {
     Room room = furnished();
-    const Changes fine{{"mip_offset", 30}, {"slices", 8}};  // no coarser depths, which are means without layers and whole pixels with them
+    const Changes fine{{"mip_offset", 30}, {"slices", 8}};  // level 0 only: coarser depths are means without layers and single texels with them
     const Picture bare = run(room, values(fine, "high"), "ramp:0.385:1");
     room.thickness.assign(room.depth.size(), 65504.0f);
     Changes layers = fine;
@@ -50,8 +50,8 @@ TEST_F(Transcription, layersWithoutEnd) {
     EXPECT_LT(mean(run(room, values(layers, "high"), "ramp:0.385:1")), 0.9 * mean(endless));
 }
 
-// Each 64x64 pixels are walked once, from neighbour to neighbour.
-TEST(Hilbert, isAWalk) {
+// The curve visits each of 64x64 pixels once, from neighbour to neighbour.
+TEST(Hilbert, visitsNeighbours) {
     std::vector<glm::ivec2> at(64 * 64, glm::ivec2(-1));
     for (unsigned y = 0; y < 64; ++y)
         for (unsigned x = 0; x < 64; ++x) at[Published::hilbert(x, y)] = glm::ivec2(x, y);

@@ -1,12 +1,12 @@
-// The two terms by themselves: nothing on a plane, equal shares above a known horizon, never more than the hemisphere.
+// The two terms separately: a plane is open, a known horizon has its exact value, the sum is at most the hemisphere.
 #include <random>
 
-#include "horizon_split/bench.h"
+#include "horizon_split/fixture.h"
 
 namespace obscura::test {
 namespace {
 
-// The plane n.x = -1.6, seen at an angle or not; sky where it does not reach.
+// The plane n.x = -1.6, sky elsewhere.
 Room plane(const std::array<float, 3>& normal) {
     Room room;
     room.build();
@@ -28,17 +28,17 @@ Room plane(const std::array<float, 3>& normal) {
 class Planes : public HorizonSplitTest, public testing::WithParamInterface<std::array<float, 3>> {};
 INSTANTIATE_TEST_SUITE_P(Terms, Planes, testing::Values(std::array{0.0f, 1.0f, 0.0f}, std::array{0.5f, 1.0f, 0.05f}));
 
-TEST_P(Planes, areOpenToTheLastBit) {
+TEST_P(Planes, areExactlyOpen) {
     const Room room = plane(GetParam());
     EXPECT_LT(highest(run(room, values({}))), 1e-6f);
     EXPECT_LT(highest(run(room, values({}, "quality"))), 1e-6f);
-    // Texel centres lie on the plane, so no horizon rises even without the offset; rays do hit the staircase.
+    // Texel centres lie on the plane, so horizons do not rise even without the offset; rays do hit the steps between texels.
     EXPECT_LT(highest(run(room, values({{"offset", 0}, {"normal_rays", 0}}))), 1e-6f);
     EXPECT_GT(mean(run(room, values({{"offset", 0}, {"term", kNormalRays}, {"thickness", 100}}))), 0.1);
 }
 
-// A pixel at the bottom of a hole one pixel wide, under a plate `height` above its start, orthographic, 1 mm a pixel.
-// With constant falloff, no jitter and first steps at `kFirst`, every direction's horizon is that of the plate there.
+// A pixel at the bottom of a hole 1 px wide, under a plate `height` above its start, orthographic, 1 mm per px.
+// With constant falloff, no jitter and first steps at `kFirst`, the horizon in every direction is the plate at the first step.
 constexpr float kPixel = 0.001f, kFirst = 0.02f;
 constexpr uint32_t kSteps = 3;  // kRadius / kSteps / 2 is kFirst
 const char* const kFalloff = "constant:0.12";
@@ -62,7 +62,7 @@ Room hole(float height) {
 
 class UnderAPlate : public HorizonSplitTest {
 protected:
-    // One term at the bottom of the hole; surfaces endlessly thick and steps even unless `changes` say otherwise.
+    // One term at the bottom of the hole; by default infinite thickness and even steps, replaced by `changes`.
     float at(float height, Term term, const Changes& changes) {
         Changes all = {{"steps", kSteps}, {"jitter", 0}, {"spacing", 0}, {"thickness", 100}, {"horizon_thickness", 100}, {"blur", 0}, {"term", float(term)}};
         all.insert(all.end(), changes.begin(), changes.end());
@@ -72,18 +72,18 @@ protected:
     }
 };
 
-TEST_F(UnderAPlate, aKnownHorizonCountsItsSquare) {
-    // Sine of the plate's elevation where the first step finds it: 0.6. Later steps pass in front of the plate.
+TEST_F(UnderAPlate, horizonTermIsTheSquaredSine) {
+    // The sine of the plate's elevation at the first step is 0.6. Later steps pass in front of the plate.
     for (const float directions : {1.0f, 4.0f, 7.0f, 8.0f, 24.0f}) EXPECT_NEAR(at(0.75f * kFirst, kHorizon, {{"directions", directions}}), 0.36f, 0.02f) << directions;
 }
 
-TEST_F(UnderAPlate, raysShareWhatIsLeftOfTheirOwnDirection) {
-    // Above a horizon of 0.6 four rays stand for .36 - .52 - .68 - .84 - 1 of the hemisphere, .16 each. The plate blocks rays
-    // with a sine below 0.75, squared .5625: all of the first, a quarter of the second, none of the others.
+TEST_F(UnderAPlate, raysDivideTheRangeAboveTheHorizon) {
+    // Above a horizon of 0.6 four rays represent the intervals .36 - .52 - .68 - .84 - 1 of the hemisphere, .16 each. The plate
+    // blocks rays with a sine below 0.75, squared .5625: all of the first, a quarter of the second, none of the others.
     EXPECT_NEAR(at(0.75f * kFirst, kNormalRays, {{"directions", 24}, {"normal_rays", 4}}), 0.16f + (0.5625f - 0.52f), 0.02f);
 }
 
-TEST_F(UnderAPlate, blockedAllAroundIsOneAndNotMore) {
+TEST_F(UnderAPlate, blockedHemisphereIsOne) {
     const float height = 1.2f * kFirst;  // H^2 = 1.44 / 2.44, and every ray meets the plate
     for (const float directions : {3.0f, 8.0f, 17.0f}) {
         for (const float rays : {1.0f, 4.0f}) {
@@ -95,8 +95,8 @@ TEST_F(UnderAPlate, blockedAllAroundIsOneAndNotMore) {
     }
 }
 
-TEST_F(UnderAPlate, whatPassesFarBehindASurfaceIsNotConcerned) {
-    // Lines are behind the plate by at most its height, 0.2 radii.
+TEST_F(UnderAPlate, linesFarBehindASurfaceAreNotBlocked) {
+    // Lines pass behind the plate by at most its height, 0.2 radii.
     const float height = 1.2f * kFirst;
     EXPECT_GT(at(height, kNormalRays, {{"thickness", 0.25f}}), 0.35f);
     EXPECT_EQ(at(height, kNormalRays, {{"thickness", 0.01f}}), 0.0f);
@@ -104,7 +104,7 @@ TEST_F(UnderAPlate, whatPassesFarBehindASurfaceIsNotConcerned) {
     EXPECT_EQ(at(height, kHorizon, {{"horizon_thickness", 0.01f}}), 0.0f);
 }
 
-TEST_F(HorizonSplitTest, anyDepthsGiveAtMostTheHemisphere) {
+TEST_F(HorizonSplitTest, randomDepthsGiveAtMostTheHemisphere) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> depths(2.0f, 3.0f), components(-1.0f, 1.0f);
     Room room;

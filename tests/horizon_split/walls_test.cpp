@@ -1,12 +1,12 @@
-// A wall on a floor, whose obscurance is known exactly, and what parameters must and must not change there.
-#include "horizon_split/bench.h"
+// A wall on a floor against its exact obscurance, and the influence of the parameters there.
+#include "horizon_split/fixture.h"
 
 namespace obscura::test {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
 
-// Obscurance of a floor point `a` metres from an endless wall, falloff 1 - d/R: 1/pi times the integral over the
+// Obscurance of a floor point `a` metres from an infinite wall, falloff 1 - d/R: 1/pi times the integral over the
 // hemisphere of rho cos, where a ray of azimuth phi and elevation t meets the wall at a / (cos phi cos t).
 double exactAtWall(double a, double reach) {
     const int n = 400;
@@ -14,7 +14,7 @@ double exactAtWall(double a, double reach) {
     for (int i = 0; i < n; ++i) {
         const double phi = (i + 0.5) / n * kPi - kPi / 2;
         for (int j = 0; j < n; ++j) {
-            const double sine2 = (j + 0.5) / n;  // equal steps of sine^2 are equal shares of the cosine-weighted hemisphere
+            const double sine2 = (j + 0.5) / n;  // equal steps of sine^2 are equal cosine-weighted solid angles
             sum += std::max(1.0 - a / (std::cos(phi) * std::sqrt(1.0 - sine2)) / reach, 0.0);
         }
     }
@@ -32,7 +32,7 @@ Room crease() {
     return room;
 }
 
-// Mean over a row's middle, where the wall's ends are out of reach.
+// Mean over the middle of a row, where the ends of the wall are out of reach.
 double row(const Room& room, const Picture& picture, uint32_t y) {
     double sum = 0.0;
     const uint32_t width = room.visibleWidth();
@@ -40,11 +40,11 @@ double row(const Room& room, const Picture& picture, uint32_t y) {
     return sum / double(width / 2);
 }
 
-TEST_F(HorizonSplitTest, anEndlessWallIsFoundAtEveryDistance) {
-    // What the integral gives is what others computed: a check of the check.
+TEST_F(HorizonSplitTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
+    // Check of the integral against independently computed values.
     for (const auto& [a, exact] : {std::pair{0.10, 0.3556}, {0.25, 0.2361}, {0.50, 0.1178}, {1.0, 0.0174}}) EXPECT_NEAR(exactAtWall(a, 1.5), exact, 5e-4);
     const Room room = crease();
-    // A line climbs a wall that it meets at a slant slowly, so a few per cent are missing in the limit and more before it.
+    // A line that meets the wall at a slant climbs it slowly: a few per cent are missing in the limit, more with few samples.
     const ao::Values fine = values({{"directions", 24}, {"steps", 64}, {"thickness", 100}, {"horizon_thickness", 100}, {"blur", 0}});
     for (const auto& [what, tolerance] : {std::pair{fine, 0.03}, {values({}), 0.06}, {values({}, "paper"), 0.08}}) {
         const Picture picture = run(room, what);
@@ -53,7 +53,7 @@ TEST_F(HorizonSplitTest, anEndlessWallIsFoundAtEveryDistance) {
         for (uint32_t y = room.visibleHeight(); y-- > 0;) {  // towards the wall: darker and darker
             const size_t i = size_t(y + room.guard) * room.width + room.width / 2;
             const double a = -room.wall - room.depth[i];
-            if (room.normals[4 * i + 1] < 0.5f || a < 0.06 || a > 1.8) continue;  // nearer, pixels are larger than the distance
+            if (room.normals[4 * i + 1] < 0.5f || a < 0.06 || a > 1.8) continue;  // nearer than 0.06 m a pixel is larger than the distance
             const double now = row(room, picture, y);
             EXPECT_NEAR(now, exactAtWall(a, 1.5), tolerance) << a << " m from the wall";
             EXPECT_GT(now, before - 0.004) << a << " m from the wall";
@@ -64,7 +64,7 @@ TEST_F(HorizonSplitTest, anEndlessWallIsFoundAtEveryDistance) {
     }
 }
 
-TEST_F(HorizonSplitTest, moreSamplesNeverLeaveTheLimit) {
+TEST_F(HorizonSplitTest, moreSamplesKeepTheLimit) {
     const Room room = crease();
     const double limit = mean(run(room, values({{"directions", 24}, {"steps", 18}, {"normal_rays", 4}})));
     EXPECT_GT(limit, 0.02);
@@ -74,7 +74,7 @@ TEST_F(HorizonSplitTest, moreSamplesNeverLeaveTheLimit) {
     for (const float rays : {1.0f, 2.0f, 5.0f, 8.0f}) EXPECT_NEAR(mean(run(room, values({{"normal_rays", rays}}))), limit, 0.06 * limit) << rays;
 }
 
-TEST_F(HorizonSplitTest, rayMarchingConvergesToTheSamePicture) {
+TEST_F(HorizonSplitTest, rayMarchingConvergesToTheSameResult) {
     const Room room = crease();
     const Picture split = run(room, values({{"directions", 24}, {"steps", 64}, {"normal_rays", 2}, {"thickness", 100}, {"horizon_thickness", 100}}));
     const Picture marched = run(room, values({{"directions", 24}, {"steps", 64}, {"normal_rays", 8}, {"thickness", 100}, {"term", kMarching}}));
@@ -82,11 +82,11 @@ TEST_F(HorizonSplitTest, rayMarchingConvergesToTheSamePicture) {
     for (size_t i = 0; i < split.size(); ++i) difference += std::abs(split[i] - marched[i]);
     EXPECT_LT(difference / double(split.size()), 0.01);
     EXPECT_GT(mean(marched), 0.02);
-    // With few rays it is another picture.
+    // With few rays the result differs.
     EXPECT_NE(run(room, values({{"normal_rays", 2}, {"term", kMarching}})), run(room, values({{"normal_rays", 2}})));
 }
 
-TEST_F(HorizonSplitTest, everyFalloffBlocksMoreTheFurtherItReaches) {
+TEST_F(HorizonSplitTest, longerFalloffBlocksMore) {
     const Room room = crease();
     for (const char* kind : {"constant", "linear", "quadratic", "wendland", "exponential"}) {
         double before = 0.0;
@@ -98,14 +98,14 @@ TEST_F(HorizonSplitTest, everyFalloffBlocksMoreTheFurtherItReaches) {
     }
 }
 
-TEST_F(HorizonSplitTest, theRadiusCutsTheFalloff) {
+TEST_F(HorizonSplitTest, radiusTruncatesTheFalloff) {
     const Room room = crease();
     const ao::Values cut = values({{"radius", 0.5f}}), whole = values({});
     EXPECT_EQ(run(room, cut, "constant:2"), run(room, whole, "constant:0.5"));
     EXPECT_EQ(run(room, values({{"radius", 50}}), "linear:1.5"), run(room, whole, "linear:1.5"));
 }
 
-TEST_F(HorizonSplitTest, bothBlursTakeTheNoiseAndKeepTheMean) {
+TEST_F(HorizonSplitTest, bothBlursReduceNoiseAndKeepTheMean) {
     const Room room = crease();
     const Picture raw = run(room, values({{"blur", 0}}));
     for (const float blur : {1.0f, 2.0f}) {
@@ -120,8 +120,8 @@ TEST_F(HorizonSplitTest, bothBlursTakeTheNoiseAndKeepTheMean) {
     }
 }
 
-TEST_F(HorizonSplitTest, thePapersBlurStopsAtDepthEdges) {
-    // A bare wall before everything: what is dark behind it must not come over its edge.
+TEST_F(HorizonSplitTest, paperBlurStopsAtDepthEdges) {
+    // A bare wall in front: obscurance behind it must not blur across its edge.
     Room room = crease();
     for (uint32_t y = 0; y < room.height; ++y)
         for (uint32_t x = 0; x < room.width / 2; ++x) {
@@ -138,7 +138,7 @@ TEST_F(HorizonSplitTest, thePapersBlurStopsAtDepthEdges) {
     EXPECT_LT(near, 0.02);
 }
 
-TEST_F(HorizonSplitTest, everyPresetTwiceIsTheSameToTheBit) {
+TEST_F(HorizonSplitTest, everyPresetIsDeterministic) {
     const Room room = crease();
     for (const ao::Preset& preset : ao::findMethod("horizon_split")->presets) EXPECT_EQ(run(room, values({}, preset.id)), run(room, values({}, preset.id))) << preset.id;
 }

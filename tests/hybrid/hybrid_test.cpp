@@ -1,5 +1,5 @@
-// What the estimator must give where the answer is known [hybrid.md, 4.5]: enclosure, emptiness, bare planes, an infinite wall,
-// and that the noise and the bits belong to the world.
+// hybrid where the exact value is known: full enclosure, empty space, bare planes, an infinite wall; and the result does not depend on
+// the position of the window.
 #include "ao/method_test.h"
 
 namespace obscura::test {
@@ -8,7 +8,7 @@ namespace {
 class HybridTest : public MethodTest {
 protected:
     HybridTest() : MethodTest("hybrid") {}
-    // Every pixel its own rays, nothing filtered.
+    // Full resolution, no filter.
     static Changes plain(float rays, float steps, float offset) { return {{"rays", rays}, {"steps", steps}, {"offset", offset}, {"map", 1}, {"filter", 0}}; }
     static Room room(float wall) {
         Room result;
@@ -18,7 +18,7 @@ protected:
     }
 };
 
-// Obscurance of a floor point at `a` metres from an infinite wall: cosine-weighted mean of rho over the directions that meet it.
+// Obscurance of a floor point at `a` metres from an infinite wall: cosine-weighted mean of rho over the directions that hit it.
 double wallExact(double a, const ao::Falloff& rho) {
     constexpr int kAzimuths = 400, kHeights = 400;
     constexpr double kPi = 3.14159265358979;
@@ -26,25 +26,25 @@ double wallExact(double a, const ao::Falloff& rho) {
     for (int i = 0; i < kAzimuths; ++i) {
         const double azimuth = kPi * ((i + 0.5) / kAzimuths - 0.5);
         for (int k = 0; k < kHeights; ++k) {
-            const double sine = std::sqrt((k + 0.5) / kHeights);  // even in sine squared: cosine-weighted
+            const double sine = std::sqrt((k + 0.5) / kHeights);  // uniform in sine squared: cosine-weighted
             sum += ao::evaluate(rho, float(a / (sine * std::cos(azimuth))));
         }
     }
     return 0.5 * sum / (kAzimuths * kHeights);
 }
 
-TEST_F(HybridTest, wendlandsFunction) {
+TEST_F(HybridTest, wendlandFalloffMatchesItsFormula) {
     const ao::Falloff rho{ao::FalloffKind::wendland, 1.0f};
     const float expected[][2] = {{0.0f, 1.0f}, {0.25f, 0.6328125f}, {0.5f, 0.1875f}, {0.75f, 0.015625f}, {1.0f, 0.0f}};
     for (const auto& [t, w] : expected) EXPECT_NEAR(ao::evaluate(rho, t), w, 1e-6f);
 }
 
-TEST_F(HybridTest, fullEnclosureIsOneAndEmptinessNone) {
+TEST_F(HybridTest, fullEnclosureIsOneAndEmptySpaceIsZero) {
     Room enclosed = room(-5.0f);
     std::fill(enclosed.bits.begin(), enclosed.bits.end(), ~0u);
     for (const char* preset : {"default", "paper", "quality"}) {
         const Picture picture = run(enclosed, values({}, preset), "constant:1");
-        // Rays that start within the window: it ends before the room does.
+        // Only the last row starts inside the window, which is smaller than the room.
         for (uint32_t x = 0; x < enclosed.visibleWidth(); ++x) EXPECT_EQ(picture[size_t(enclosed.visibleHeight() - 1) * enclosed.visibleWidth() + x], 1.0f) << preset;
     }
     const Picture touching = run(enclosed, values(plain(128, 64, 0)), "wendland:2");
@@ -53,8 +53,8 @@ TEST_F(HybridTest, fullEnclosureIsOneAndEmptinessNone) {
     EXPECT_EQ(highest(run(enclosed, values({}), "wendland:2")), 0.0f);
 }
 
-// The bound is sqrt(3) cells: a cell's farthest corner above a plane that touches it.
-TEST_F(HybridTest, barePlanesDoNotDarkenThemselves) {
+// The offset must exceed sqrt(3) cells: the farthest corner of a cell from a plane that touches it.
+TEST_F(HybridTest, planesAreOpen) {
     Room bare = room(0.0f);
     for (const float tilt : {0.0f, 0.3f, 0.785398f, 1.1f})
         for (const float offset : {1.75f, 2.0f}) {
@@ -63,7 +63,7 @@ TEST_F(HybridTest, barePlanesDoNotDarkenThemselves) {
             EXPECT_EQ(highest(run(bare, values(plain(64, 64, offset)), "wendland:2")), 0.0f) << tilt;
         }
     bare.voxelize(128, 0.1f, 0.785398f);
-    EXPECT_GT(highest(run(bare, values(plain(64, 64, 0.5f)), "wendland:2")), 0.5f);  // and without the offset they do
+    EXPECT_GT(highest(run(bare, values(plain(64, 64, 0.5f)), "wendland:2")), 0.5f);  // with a small offset they do
 }
 
 TEST_F(HybridTest, infiniteWallIsNearTheExactIntegral) {
@@ -89,24 +89,24 @@ TEST_F(HybridTest, infiniteWallIsNearTheExactIntegral) {
         mean /= wall.visibleWidth();
         coarseMean /= wall.visibleWidth();
         const double exact = wallExact(a, rho);
-        // Distances count as if the wall faced the ray, so they come out too long by the lift at most.
+        // Distances are too long by at most the lift along the normal.
         EXPECT_LT(mean, 1.03 * exact) << a;
         EXPECT_GT(mean, wallExact(a + 2 * 0.07, rho)) << a;
-        EXPECT_LT(coarseMean, exact) << a;          // steps longer than the shell is thick miss it,
-        EXPECT_GT(coarseMean, 0.15 * exact) << a;   // by a known amount
+        EXPECT_LT(coarseMean, exact) << a;          // steps longer than the thickness of the shell miss it,
+        EXPECT_GT(coarseMean, 0.15 * exact) << a;   // but not always
         ++rows;
     }
     EXPECT_GE(rows, 4u);
 }
 
-TEST_F(HybridTest, aWindowThatMovedGivesTheSamePicture) {
+TEST_F(HybridTest, movedWindowGivesTheSameResult) {
     Room still = room(-2.5f), moved = still;
     still.voxelize(64, 0.1f);
-    moved.voxelize(64, 0.1f, 0.0f, {8, -24, 40});  // other addresses, same cells; as metres they are elsewhere, so the noise is another
+    moved.voxelize(64, 0.1f, 0.0f, {8, -24, 40});  // other addresses, same cells; their world position differs, so the noise differs
     const Picture a = run(still, values(plain(128, 32, 2)), "wendland:2"), b = run(moved, values(plain(128, 32, 2)), "wendland:2");
     EXPECT_GT(mean(a), 0.005);
     EXPECT_NEAR(mean(a), mean(b), 0.02 * mean(a));
-    // Lowest corner and origin moved together are the same world: the same, noise and all, where the windows overlap.
+    // Moving the origin and the lowest corner together keeps the world: where the windows overlap the result is the same, noise included.
     Room shifted = still;
     shifted.volume.origin[0] = 8;
     shifted.volume.cellFromEye[12] -= 8.0f;
@@ -118,7 +118,7 @@ TEST_F(HybridTest, aWindowThatMovedGivesTheSamePicture) {
     EXPECT_GT(double(same), 0.99 * double(all));
 }
 
-TEST_F(HybridTest, mapsAndFiltersStayNearThePlainPicture) {
+TEST_F(HybridTest, mapsAndFiltersStayNearTheUnfilteredResult) {
     Room wall = room(-5.0f);
     const Picture plainly = run(wall, values({{"rays", 128}, {"map", 1}, {"filter", 0}}), "wendland:2");
     for (const float map : {1.0f, 2.0f, 3.0f, 4.0f}) {
@@ -130,7 +130,7 @@ TEST_F(HybridTest, mapsAndFiltersStayNearThePlainPicture) {
     }
 }
 
-TEST_F(HybridTest, withoutAVolumeNothingIsBlockedAndOneLineSaysSo) {
+TEST_F(HybridTest, withoutVolumeNothingIsBlockedAndOneLineIsLogged) {
     Room none = room(-5.0f);
     none.bits.clear();
     for (int i = 0; i < 3; ++i) EXPECT_EQ(highest(run(none, values({}), "wendland:2")), 0.0f);

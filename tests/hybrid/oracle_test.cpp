@@ -1,5 +1,5 @@
-// The stored analytic scenes from end to end: triangles to voxels to picture, against references that were ray-traced through the
-// same geometry. Skipped where the folder is missing.
+// The stored analytic scenes end to end, from triangles to voxels to visibility, against references ray-traced in the same geometry.
+// Skipped without the folder of references.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -37,7 +37,7 @@ void expectError(const std::string& scene, double most) {
     EXPECT_LE(eA, most);
 }
 
-TEST(HybridOracle, corner) { expectError("corner", 0.015); }
-TEST(HybridOracle, atrium) { expectError("atrium", 0.029); }
+TEST(HybridOracle, cornerErrorIsBelowTheLimit) { expectError("corner", 0.015); }
+TEST(HybridOracle, atriumErrorIsBelowTheLimit) { expectError("atrium", 0.029); }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Accuracy against stored references: of captured frames, which have no layers, and of the same scenes drawn by our renderer,
-// which has.
+// Accuracy against stored references: captured frames, which have no depth layers, and the same scenes drawn by our renderer, which
+// have them.
 #include "ao/drawn.h"
 
 namespace obscura::test {
@@ -15,24 +15,24 @@ protected:
     float drawn(const std::string& name, const ao::Values& values) { return DrawnOracleTest::drawn(name, values, kFalloff, kWorld); }
 };
 
-TEST_F(Oracle, cornerWithoutLayers) {
+TEST_F(Oracle, cornerWithoutLayersIsBelowTheLimit) {
     EXPECT_LE(measure("corner", values({{"thickness", 1000}}), kFalloff, kWorld).raw.eA, 0.0040f);
     EXPECT_LE(measure("corner", values({{"thickness", 1000}}, "quality"), kFalloff, kWorld).raw.eA, 0.0030f);
     EXPECT_LE(measure("corner", values({{"thickness", 1000}}, "reference"), kFalloff, kWorld).raw.eA, 0.0015f);
 }
 
-// Strata of metres: what counts for a stretch of surface is not the mean of its ends.
-TEST_F(Oracle, cornerFarReaching) {
+// Strata several metres long: the mean falloff over a segment differs from the mean of its ends.
+TEST_F(Oracle, cornerWithLongFalloffIsBelowTheLimit) {
     EXPECT_LE(measure("corner", values({{"thickness", 1000}}), "exponential:1", "world.exponential_1").raw.eA, 0.0056f);
 }
 
-TEST_F(Oracle, cornerDrawn) {
+TEST_F(Oracle, drawnCornerIsBelowTheLimit) {
     EXPECT_LE(drawn("corner", values({})), 0.0040f);
     EXPECT_LE(drawn("corner", values({}, "quality")), 0.0030f);
     EXPECT_LE(drawn("corner", values({}, "reference")), 0.0015f);
 }
 
-TEST_F(Oracle, atriumDrawn) {
+TEST_F(Oracle, drawnAtriumIsBelowTheLimit) {
     EXPECT_LE(drawn("atrium", values({})), 0.0145f);
     EXPECT_LE(drawn("atrium", values({}, "quality")), 0.0115f);
     EXPECT_LE(drawn("atrium", values({}, "reference")), 0.0070f);

@@ -1,5 +1,5 @@
-// Half-spaces, spheres, boxes and upright cylinders as a frame with depth layers, and as a reference: every ray meets them
-// exactly. Eye space, metres.
+// Analytic half-spaces, spheres, boxes and upright cylinders: rendered as a frame with depth layers, and ray-traced as a reference.
+// Eye space, metres.
 #pragma once
 
 #include <algorithm>
@@ -60,7 +60,7 @@ struct Solid {
     }
 };
 
-// `tilt` aside, Room's camera: 60 degrees of the visible height. Half the second layer's pixels when `half`.
+// The camera of Room, turned by `tilt`: 60 degrees over the visible height. `half`: the second layer has half the size.
 inline Room frameOf(const std::vector<Solid>& solids, uint32_t width, uint32_t height, uint32_t guard, bool half = false) {
     Room room;
     room.width = width;

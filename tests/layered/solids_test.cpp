@@ -1,4 +1,4 @@
-// Obscurance that is known: beside an endless wall, behind a pillar, behind a board that hides another.
+// `layered` against exact obscurance: beside an infinite wall, behind a pillar, behind a board that hides another.
 #include "layered/solids.h"
 
 namespace obscura::test {
@@ -7,7 +7,7 @@ namespace {
 using Kind = Solid::Kind;
 constexpr const char* kRamp = "ramp:0.385:1";
 
-// Of a floor point `a` metres from an endless wall: the mean over cosine directions of rho(a / d_x).
+// Obscurance of a floor point `a` metres from an infinite wall: the cosine-weighted mean of rho(a / d_x).
 double exactAtWall(double a) {
     ao::Falloff rho;
     ao::parseFalloff(kRamp, rho);
@@ -21,13 +21,13 @@ double exactAtWall(double a) {
     return sum / (2.0 * n * n);
 }
 
-TEST_F(LayeredTest, anEndlessWallIsFoundAtEveryDistance) {
-    // What the integral gives is what others computed: a check of the check.
+TEST_F(LayeredTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
+    // Check of the integral against independently computed values.
     for (const auto& [a, exact] : {std::pair{0.10, 0.4017}, {0.25, 0.2610}, {0.50, 0.0845}, {0.75, 0.0133}}) EXPECT_NEAR(exactAtWall(a), exact, 5e-4);
     const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 384, 216, 32);
     for (const auto& [changes, preset, tolerance] : {std::tuple{Changes{{"steps", 4}}, "default", 0.012}, {Changes{}, "default", 0.011}, {Changes{}, "reference", 0.004}}) {
         const Picture picture = run(room, values(changes, preset), kRamp);
-        // Row by row; what is shared out among 4x4 pixels is compared with the exact mean over the rows that were asked.
+        // Row by row. Samples interleaved over 4x4 pixels are compared with the exact mean over the gathered rows.
         std::vector<double> found, exact, distance;
         for (uint32_t y = 0; y < room.visibleHeight(); ++y) {
             const size_t i = size_t(y + room.guard) * room.width + room.width / 2;
@@ -56,7 +56,7 @@ TEST_F(LayeredTest, anEndlessWallIsFoundAtEveryDistance) {
     }
 }
 
-// Error and bias on surfaces that face along `axis`, at every third pixel of each axis where `judged` holds.
+// Error and bias on surfaces with a normal along `axis`, at every third pixel on both axes where `judged` holds.
 struct Errors { double eA = 0.0, bias = 0.0, reference = 0.0; };
 Errors facing(int axis, bool (*judged)(const glm::vec3&), const Room& room, const Picture& picture, const std::vector<Solid>& world) {
     glm::vec3 n(0);
@@ -86,7 +86,7 @@ Errors onWall(const Room& room, const Picture& picture, const std::vector<Solid>
     return facing(2, [](const glm::vec3& p) { return p.z < -7.99f && std::abs(p.x) < 0.8f && std::abs(p.y) < 0.8f; }, room, picture, world);
 }
 
-TEST_F(LayeredTest, aPillarShadesTheWallBehindItByItsBack) {
+TEST_F(LayeredTest, pillarMatchesTheReferenceOnTheWallBehind) {
     const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {0, 0, -7.4f}, {0.1f, 0, 0}}};
     const Room room = frameOf(world, 512, 296, 32);
     const Errors layered = onWall(room, run(room, values({}, "quality"), kRamp), world);
@@ -99,8 +99,8 @@ TEST_F(LayeredTest, aPillarShadesTheWallBehindItByItsBack) {
     EXPECT_LT(onWall(half, run(half, values({}, "quality"), kRamp), world).eA, 0.010);
 }
 
-TEST_F(LayeredTest, betweenThinPostsTheFloorIsNotTooBright) {
-    // Posts are a few pixels wide and strata dozens: a sample that hits one stands for those that miss it.
+TEST_F(LayeredTest, floorBetweenThinPostsHasNoBias) {
+    // Posts are a few px wide and strata dozens of px: a sample that hits a post represents samples that miss it.
     std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}};
     for (int i = 0; i < 63; ++i)
         world.push_back({Kind::box, {-1.6f + 0.4f * float(i % 9) + 0.13f * float(i / 9 % 3), -1.2f, -2.8f - 0.4f * float(i / 9)}, {0.015f, 0.3f, 0.015f}});
@@ -112,7 +112,7 @@ TEST_F(LayeredTest, betweenThinPostsTheFloorIsNotTooBright) {
     EXPECT_LT(std::abs(many.bias), 0.01);
 }
 
-TEST_F(LayeredTest, errorFallsWithEverySampleMore) {
+TEST_F(LayeredTest, moreSamplesReduceTheError) {
     const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {-0.4f, 0, -7.4f}, {0.1f, 0, 0}}, {Kind::box, {0.5f, -0.3f, -7.8f}, {0.2f, 0.3f, 0.2f}}};
     const Room room = frameOf(world, 512, 296, 32);
     double before = 1.0;
@@ -123,7 +123,7 @@ TEST_F(LayeredTest, errorFallsWithEverySampleMore) {
     }
 }
 
-TEST_F(LayeredTest, othersLetThingsEndAsWell) {
+TEST_F(LayeredTest, depthLayersReduceTheErrorOfOtherMethods) {
     const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {0, 0, -7.4f}, {0.1f, 0, 0}}};
     const Room room = frameOf(world, 512, 296, 32);
     for (const auto& [method, preset] : {std::pair{"hbao", "default"}, {"horizon_split", "default"}, {"gtao", "default"}, {"gtao", "tuned"}}) {
@@ -135,8 +135,8 @@ TEST_F(LayeredTest, othersLetThingsEndAsWell) {
     }
 }
 
-TEST_F(LayeredTest, aBoardBehindABoardStillShadesTheWall) {
-    // The second board is seen past the first by nobody but through the second layer.
+TEST_F(LayeredTest, secondLayerShowsTheHiddenBoard) {
+    // The second board is visible only in the second layer.
     const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::box, {0, 0, -6.6f}, {0.4f, 5, 0.05f}}, {Kind::box, {0, 0, -7.7f}, {0.5f, 5, 0.05f}}};
     const Room room = frameOf(world, 512, 296, 32);
     const Errors two = onWall(room, run(room, values({}, "reference"), kRamp), world), one = onWall(room, run(room, values({{"depth_layers", 1}}, "reference"), kRamp), world);

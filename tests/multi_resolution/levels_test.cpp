@@ -1,12 +1,12 @@
-// How levels are made and where they sample: the specification's numbers.
-#include "multi_resolution/bench.h"
+// Downsampling of depths, and the number of samples on each level.
+#include "multi_resolution/fixture.h"
 
 namespace obscura::test {
 namespace {
 
 class Levels : public MultiResolutionTest {};
 
-// A wall of 2x2 blocks with these depths.
+// A wall of repeated 2x2 blocks with these depths.
 Room blocks(const std::array<float, 4>& depths) {
     Room room = wall(1.0f);
     for (uint32_t y = 0; y < room.height; ++y)
@@ -14,8 +14,8 @@ Room blocks(const std::array<float, 4>& depths) {
     return room;
 }
 
-TEST_F(Levels, aBlockBecomesItsMedianOrItsSecondNearest) {
-    look("depth", 2);  // the threshold is half of 2 m
+TEST_F(Levels, blockDownsamplesToItsMedianOrSecondNearest) {
+    readLevel("depth", 2);  // the threshold is half of 2 m
     for (const auto& far : {std::array{1.0f, 2.0f, 3.0f, 10.0f}, std::array{10.0f, 1.0f, 2.0f, 3.0f}, std::array{3.0f, 10.0f, 1.0f, 2.0f}}) {
         run(blocks(far), values({}, "paper"));
         EXPECT_FLOAT_EQ(depthAt(90, 50), 2.0f);
@@ -28,68 +28,68 @@ TEST_F(Levels, aBlockBecomesItsMedianOrItsSecondNearest) {
     }
 }
 
-TEST_F(Levels, aPlaneStaysThatPlane) {
+TEST_F(Levels, planeIsPreserved) {
     for (const std::array<float, 3>& n : {std::array{0.0f, 1.0f, 0.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{0.3f, -0.2f, 1.0f}}) {
         const Room room = plane(n);
         for (const float threshold : {0.5f, 0.0f, 1000.0f}) {
-            for (const int part : {2, 4, 8}) {
-                look("depth", part);
+            for (const int side : {2, 4, 8}) {
+                readLevel("depth", side);
                 run(room, values({{"threshold", threshold}}, "paper"));
                 float worst = 0.0f;
                 size_t compared = 0;
                 for (uint32_t y = 0; y < m_probed.height; ++y)
                     for (uint32_t x = 0; x < m_probed.width; ++x) {
-                        const auto [right, up] = rayAt(room, (float(x) + 0.5f) * float(part), (float(y) + 0.5f) * float(part));
+                        const auto [right, up] = rayAt(room, (float(x) + 0.5f) * float(side), (float(y) + 0.5f) * float(side));
                         const float expected = -1.6f * std::hypot(n[0], n[1], n[2]) / (n[0] * right + n[1] * up - n[2]);
-                        // Blocks that the sky has a part of hold nothing that could be compared.
+                        // Skip blocks that contain sky.
                         const float steepest = std::abs(n[0] * right + n[1] * up - n[2]);
                         if (expected <= 0.0f || expected > 60.0f || steepest < 0.1f) continue;
                         worst = std::max(worst, std::abs(depthAt(x, y) / expected - 1.0f));
                         ++compared;
                     }
                 EXPECT_GT(compared, m_probed.words.size() / 5);
-                EXPECT_LT(worst, 2e-4f) << "1/" << part << ", threshold " << threshold;
+                EXPECT_LT(worst, 2e-4f) << "1/" << side << ", threshold " << threshold;
             }
         }
     }
 }
 
-// 155.885 px a metre: at 5 m and a reach of 2 m radii are 62.35, 31.18, 15.59, 7.79 texels, all capped at 5; at 20 m they
+// 155.885 px per metre at 1 m: at 5 m and a reach of 2 m radii are 62.35, 31.18, 15.59, 7.79 texels, all capped at 5; at 20 m they
 // are 15.59, 7.79, 3.90, 1.95, 0.97.
-TEST_F(Levels, sampleAsManyAsTheirRadiusAsksFor) {
+TEST_F(Levels, sampleCountFollowsTheRadius) {
     const auto counts = [&](float depth, const Changes& changes) {
         std::vector<float> result;
-        for (const int part : {1, 2, 4, 8, 16}) {
-            look("near", part);
+        for (const int side : {1, 2, 4, 8, 16}) {
+            readLevel("near", side);
             run(wall(depth), values(changes, "paper"));
             result.push_back(samplesAt(m_probed.width / 2, m_probed.height / 2));
         }
         return result;
     };
     std::vector<float> close = counts(5.0f, {{"levels", 5}});
-    close.pop_back();  // its 14 rows are too few to hold the pattern
+    close.pop_back();  // level 1/16 has 14 rows, fewer than the pattern needs
     EXPECT_EQ(close, (std::vector<float>{16, 36, 36, 36}));
     EXPECT_EQ(counts(20.0f, {{"levels", 5}}), (std::vector<float>{16, 36, 16, 4, 0}));
     EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"pattern", 0}, {"first_radius", 0.5f}}), (std::vector<float>{36, 16, 4, 0, 0}));
     EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"pattern", 0}, {"max_radius", 2}}), (std::vector<float>{9, 9, 9, 4, 0}));
 }
 
-TEST_F(Levels, samplesOutsideTheBuffersAreNotCounted) {
+TEST_F(Levels, samplesOutsideTheImageAreNotCounted) {
     Room room = wall(5.0f);
-    room.guard = 0;  // so that the corner is a visible texel
+    room.guard = 0;  // makes the corner texel visible
     room.width = 320;
     room.height = 180;
     room.build();
     std::fill(room.depth.begin(), room.depth.end(), 5.0f);
-    look("near", 2);
+    readLevel("near", 2);
     run(room, values({}, "paper"));
     EXPECT_EQ(samplesAt(0, 0), 9);  // offsets 1, 3, 5 of -5 to 5
     EXPECT_EQ(samplesAt(80, 0), 18);
 }
 
-TEST_F(Levels, eachOneMoreReachesTwiceAsFar) {
+TEST_F(Levels, eachLevelDoublesTheReach) {
     Room room = hall();
-    room.wall = -4.0f;  // 25 px from the floor at 2.8 m: 2 and 3 levels see 10 and 20 px
+    room.wall = -4.0f;  // 25 px from the floor at 2.8 m: 2 and 3 levels reach 10 and 20 px
     room.build();
     const uint32_t row = uint32_t(90.0f + 155.885f * 1.5f / 2.8f), width = room.visibleWidth();
     const auto at = [&](float levels) { return run(room, values({{"levels", levels}}, "paper")).at(size_t(row) * width + width / 2); };

@@ -1,5 +1,6 @@
-// What samples add up to and how levels join: the specification's properties, scale, and frames that are hard to bear.
-#include "multi_resolution/bench.h"
+// Obscurance of single levels and its combination, scale invariance, odd frames, memory and passes.
+#include "graph/executor.h"
+#include "multi_resolution/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -12,15 +13,15 @@ std::vector<const char*> presets() {
     return result;
 }
 
-TEST_F(Obscurance, ofAPlaneOfAnyTiltIsNone) {
+TEST_F(Obscurance, planesAreOpen) {
     const std::array<float, 3> normals[] = {{0, 1, 0}, {0.5f, 1, 0.05f}, {1, 0.1f, 0.2f}, {0.3f, -0.2f, 1}};
     for (const auto& n : normals)
         for (const char* preset : presets()) EXPECT_LT(highest(run(plane(n), values({}, preset))), 1e-5f) << preset << " " << n[0];
 }
 
-// Normals that do not belong to the wall see half of its samples above them, the same at every level: with m the mean over
-// the pattern, the maximum is m, the average is m, and A = 1 - (1 - m)^2 [eq. 11].
-TEST_F(Obscurance, joinsMaximumAndMean) {
+// With normals tilted against the wall, half of the samples are above the tangent plane, equally on every level: with m the mean
+// over the pattern, the maximum is m, the average is m, and A = 1 - (1 - m)^2 [eq. 11].
+TEST_F(Obscurance, combinesMaximumAndMean) {
     float m = 0.0f;
     for (int y = -5; y <= 5; y += 2)
         for (int x = -5; x <= 5; x += 2) m += std::max(0.0f, 0.8f * float(x) / std::hypot(float(x), float(y))) / 36.0f;
@@ -33,8 +34,8 @@ TEST_F(Obscurance, joinsMaximumAndMean) {
     EXPECT_EQ(run(room, values({}, "paper"), "constant:0.001").at(middle), 0.0f) << "no samples at any level";
 }
 
-// A pixel at the bottom of a shaft: all its own samples stand straight above it.
-TEST_F(Obscurance, blockedAllAroundIsOneAndNotMore) {
+// A pixel at the bottom of a shaft: all samples of its level 0 are above it.
+TEST_F(Obscurance, blockedHemisphereIsOne) {
     Room room = wall(1.0f);
     const uint32_t x = room.width / 2, y = room.height / 2;
     room.depth[size_t(y) * room.width + x] = 4.0f;
@@ -45,24 +46,24 @@ TEST_F(Obscurance, blockedAllAroundIsOneAndNotMore) {
     }
 }
 
-TEST_F(Obscurance, isNeverLessThanItsOwnLevelsMean) {
+TEST_F(Obscurance, isAtLeastTheMaximumOfTheFinestLevel) {
     const Room room = hall();
     for (const char* preset : presets()) {
-        look("near", 1);
+        readLevel("near", 1);
         const Picture picture = run(room, values({}, preset));
         float most = 0.0f;
         for (uint32_t y = 0; y < room.visibleHeight(); ++y)
             for (uint32_t x = 0; x < room.visibleWidth(); ++x) {
-                ASSERT_GE(picture.at(size_t(y) * room.visibleWidth() + x), mostAt(x, y) - 0.001f) << preset;
-                most = std::max(most, mostAt(x, y));
+                ASSERT_GE(picture.at(size_t(y) * room.visibleWidth() + x), maximumAt(x, y) - 0.001f) << preset;
+                most = std::max(most, maximumAt(x, y));
             }
         EXPECT_GT(most, 0.1f);
     }
 }
 
-// Four rows of the floor from the wall on: a CPU prototype with another disk has .442, .288, .279, .106, exact are .454, .315,
-// .211, .082.
-TEST_F(Obscurance, ofFloorAndWallIsThePrototypes) {
+// Four rows of the floor next to the wall: a CPU prototype with another sample disk gives .442, .288, .279, .106; exact are .454,
+// .315, .211, .082.
+TEST_F(Obscurance, matchesThePrototypeBesideAWall) {
     const Room room = hall();
     const Picture picture = run(room, values({}, "paper"));
     const std::array<std::pair<uint32_t, float>, 4> rows = {{{119, 0.442f}, {120, 0.288f}, {121, 0.279f}, {123, 0.106f}}};
@@ -74,9 +75,9 @@ TEST_F(Obscurance, ofFloorAndWallIsThePrototypes) {
     }
 }
 
-// A wall too far for the fine level; below it floor pixels whose normals lean to it and away from it by turns. What the
-// coarse levels see of the wall has to be told apart by the fine normals.
-TEST_F(Obscurance, directedFollowsTheFineNormal) {
+// A wall beyond the reach of the finest level; normals of the floor pixels lean alternately towards and away from it. The
+// obscurance from coarse levels must follow the fine normals.
+TEST_F(Obscurance, directedFollowsTheFineNormals) {
     Room room = hall();
     const uint32_t row = uint32_t(90.0f + 155.885f * 1.5f / 7.0f) + room.guard;
     for (uint32_t y = 0; y < room.height; ++y)
@@ -86,18 +87,18 @@ TEST_F(Obscurance, directedFollowsTheFineNormal) {
         }
     const auto contrast = [&](float directed) {
         const Picture picture = run(room, values({{"levels", 5}, {"obscurance", directed}}, "paper"));
-        const size_t i = size_t(row - room.guard) * room.visibleWidth() + 160;  // 160 + guard is even: leans away from the camera, to the wall
+        const size_t i = size_t(row - room.guard) * room.visibleWidth() + 160;  // 160 + guard is even: its normal leans towards the wall
         EXPECT_GT(picture.at(i), 0.0f);
         return picture.at(i) / picture.at(i + 1);
     };
     EXPECT_GT(contrast(1), 1.3f * contrast(0));
 }
 
-// The same picture in metres and in centimetres.
-TEST_F(Obscurance, isTheSameAtAHundredTimesTheScale) {
+// The same frame in metres and in centimetres.
+TEST_F(Obscurance, isScaleInvariant) {
     for (const char* preset : presets()) {
         Room room = hall();
-        for (uint32_t y = 90; y < 150; ++y)  // a box before the wall, so that there are edges
+        for (uint32_t y = 90; y < 150; ++y)  // a box before the wall adds depth edges
             for (uint32_t x = 120; x < 180; ++x) {
                 const size_t i = size_t(y) * room.width + x;
                 room.depth[i] = 5.5f;
@@ -114,7 +115,7 @@ TEST_F(Obscurance, isTheSameAtAHundredTimesTheScale) {
     }
 }
 
-TEST_F(Obscurance, bearsSkyOddSizesAndTinyPictures) {
+TEST_F(Obscurance, isValidForSkyOddAndTinySizes) {
     const std::array<uint32_t, 3> sizes[] = {{161, 97, 8}, {8, 8, 0}, {9, 13, 1}, {63, 130, 0}, {1, 1, 0}};
     for (const auto& [width, height, guard] : sizes)
         for (const bool sky : {false, true})
@@ -132,21 +133,22 @@ TEST_F(Obscurance, bearsSkyOddSizesAndTinyPictures) {
             }
 }
 
-TEST_F(Obscurance, twiceIsTheSameToTheBit) {
+TEST_F(Obscurance, isDeterministic) {
     const Room room = hall();
     for (const char* preset : presets()) EXPECT_EQ(run(room, values({}, preset)), run(room, values({}, preset))) << preset;
 }
 
-// Beside a method of one level that keeps depth, normals and visibility; the paper has 1.85 times that with four levels.
-TEST_F(Obscurance, takesTwiceTheMemoryOfOneLevel) {
+// Compared with a method of one level that keeps depth, normals and visibility. The paper uses 1.85 times that with four levels.
+TEST_F(Obscurance, memoryIsBelowTwiceThatOfOneLevel) {
     Room room;
     room.width = room.height = 1024;
     room.guard = 0;
     room.build();
     const auto bytes = [&](const ao::Values& of) {
         m_graph = std::make_unique<graph::Graph>(m_device);
+        m_executor = std::make_unique<graph::Executor>(m_device);
         run(room, of);
-        return double(m_graph->poolBytes());
+        return double(m_executor->poolBytes());
     };
     ao::Values single(*ao::findMethod("hbao"));
     single.set("denoise", 0);
@@ -160,8 +162,8 @@ TEST_F(Obscurance, takesTwiceTheMemoryOfOneLevel) {
     }
 }
 
-// Each step is a pass, so that each has its time.
-TEST_F(Obscurance, hasItsStepsAsPasses) {
+// Each step is a separate pass with its own time.
+TEST_F(Obscurance, eachStepIsAPass) {
     run(hall(), values({}, "fast"));
     for (const char* pass : {"downsample 1/2", "downsample 1/4", "sample 1/1", "sample 1/2", "sample 1/4", "filter 1/2", "filter 1/4", "upsample 1/1", "upsample 1/2"})
         EXPECT_TRUE(m_passes.count(std::string("multi_resolution.") + pass)) << pass;

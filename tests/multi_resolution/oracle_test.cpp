@@ -12,21 +12,21 @@ protected:
     }
 };
 
-TEST_F(Oracle, corner) {
+TEST_F(Oracle, cornerErrorIsBelowTheLimit) {
     const truth::Metrics paper = measure("corner", "paper"), ours = measure("corner", "default");
     EXPECT_LE(paper.raw.eA, 0.026f);
     EXPECT_LT(ours.raw.eA, 0.024f);
     EXPECT_GE(ours.ssim, 0.97f);
 }
 
-TEST_F(Oracle, atrium) {
+TEST_F(Oracle, atriumErrorIsBelowTheLimit) {
     const truth::Metrics paper = measure("atrium", "paper"), ours = measure("atrium", "default");
     EXPECT_LE(paper.raw.eA, 0.046f);
     EXPECT_LT(ours.raw.eA, 0.043f);
     EXPECT_GT(ours.ssim, paper.ssim);
 }
 
-TEST_F(Oracle, realScenes) {
+TEST_F(Oracle, defaultIsMoreAccurateThanPaperOnRealScenes) {
     for (const char* scene : {"sponza_a", "dragon"}) {
         const truth::Metrics paper = measure(scene, "paper"), ours = measure(scene, "default");
         EXPECT_LT(ours.raw.eA, paper.raw.eA) << scene;

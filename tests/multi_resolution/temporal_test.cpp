@@ -1,5 +1,5 @@
-// The paper's temporal filter (k = 0.5) on the toasters' flythrough: how much steadier it is, and what it leaves behind
-// toasters that walk.
+// The paper's temporal filter (k = 0.5) on the flythrough of the toasters: reduction of flicker, and trails behind walking
+// toasters.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "render/bench.h"
+#include "render/fixture.h"
 #include "scene/gltf.h"
 
 namespace obscura::test {
@@ -20,7 +20,7 @@ protected:
     struct Moves {
         bool camera, toasters;
     };
-    // Frames at 30 Hz, from `start` seconds on the scene's path and of its animation; what does not move stays as it is there.
+    // Frames at 30 Hz from `start` seconds on, of the camera path and the animation. What does not move stays at `start`.
     std::vector<Picture> frames(const std::vector<ao::Setting>& settings, float start, int count, Moves moves) {
         const fs::path content = fs::path(OBSCURA_SOURCE_DIR) / "content";
         fs::path file = content / "toasters.glb";
@@ -36,10 +36,10 @@ protected:
             if (std::string("paper") == preset.id) values.apply(preset);
         for (const ao::Setting& setting : settings) EXPECT_TRUE(values.set(setting.id, setting.value));
 
-        Bench bench;
+        RenderFixture fixture;
         std::vector<Picture> pictures;
         for (int i = 0; i < count; ++i) {
-            render::FrameOptions options = bench.options();
+            render::FrameOptions options = fixture.options();
             options.visible = {320, 180};
             options.method = &values;
             const float time = start + float(i) / 30.0f;
@@ -47,7 +47,7 @@ protected:
             options.camera = path.at(moves.camera ? time : start);
             options.cut = i == 0;
             options.falloff = {ao::FalloffKind::quadratic, 2.0f, 0.0f};
-            pictures.push_back(bench.render(world, options));
+            pictures.push_back(fixture.render(world, options));
             m_near = options.camera.nearPlane;
         }
         return pictures;
@@ -68,18 +68,18 @@ protected:
             const uint32_t gx = now.guard.width, gy = now.guard.height, width = now.visibility.width, height = now.visibility.height;
             for (uint32_t y = 0; y < height; ++y)
                 for (uint32_t x = 0; x < width; ++x) {
-                    const glm::vec2 at = glm::vec2(x, y) + now.motionAt(x + gx, y + gy), corner = glm::floor(at), part = at - corner;
+                    const glm::vec2 at = glm::vec2(x, y) + now.motionAt(x + gx, y + gy), corner = glm::floor(at), fraction = at - corner;
                     if (corner.x < 0 || corner.y < 0 || corner.x + 1 >= float(width) || corner.y + 1 >= float(height)) continue;
                     const float z = depthAt(now, x, y);
                     bool agrees = std::isfinite(z);
-                    float past = 0.0f;
+                    float history = 0.0f;
                     for (uint32_t i = 0; i < 4 && agrees; ++i) {
                         const uint32_t qx = uint32_t(corner.x) + (i & 1), qy = uint32_t(corner.y) + (i >> 1);
                         agrees = std::abs(depthAt(then, qx, qy) / z - 1.0f) < 0.02f && glm::dot(then.normalAt(qx + gx, qy + gy), now.normalAt(x + gx, y + gy)) > 0.9f;
-                        past += visibilityAt(then, qx, qy) * (i & 1 ? part.x : 1 - part.x) * (i >> 1 ? part.y : 1 - part.y);
+                        history += visibilityAt(then, qx, qy) * (i & 1 ? fraction.x : 1 - fraction.x) * (i >> 1 ? fraction.y : 1 - fraction.y);
                     }
                     if (!agrees) continue;
-                    sum += std::abs(double(visibilityAt(now, x, y) - past));
+                    sum += std::abs(double(visibilityAt(now, x, y) - history));
                     ++compared;
                 }
         }
@@ -90,23 +90,23 @@ protected:
     float m_near = 0.0f;
 };
 
-// Toasters that walk change obscurance itself, which no filter may take out: they alone bring the ratio up.
-TEST_F(Flythrough, halfThePastIsSteadier) {
+// Walking toasters change the true obscurance, which the filter must keep, so their ratio is higher.
+TEST_F(Flythrough, filterReducesFlicker) {
     for (const bool toasters : {false, true})
         for (const float start : {2.0f, 12.0f}) {
             const double raw = reprojectedDifference(frames({{"temporal", 0}}, start, 12, {true, toasters}));
             const double filtered = reprojectedDifference(frames({}, start, 12, {true, toasters}));
-            printf("from %.1f s%s: reprojected difference %.5f, with half of the past %.5f, ratio %.3f\n", double(start), toasters ? ", walking" : "", raw, filtered, filtered / raw);
+            printf("from %.1f s%s: reprojected difference %.5f, filtered %.5f, ratio %.3f\n", double(start), toasters ? ", walking" : "", raw, filtered, filtered / raw);
             EXPECT_GT(raw, 0.001);
             EXPECT_LE(filtered, (toasters ? 0.65 : 0.6) * raw);
         }
 }
 
-// Under a still camera every difference of the filtered picture from the bare one is the past's: where toasters were.
+// With a resting camera, differences between the filtered and the raw image are caused by history.
 TEST_F(Flythrough, walkingToastersLeaveNoTrail) {
     const std::vector<Picture> bare = frames({{"temporal", 0}}, 1.0f, 10, {false, true}), filtered = frames({}, 1.0f, 10, {false, true});
     const Picture &now = filtered.back(), &then = filtered[filtered.size() - 2];
-    size_t vacated = 0, visible = 0;
+    size_t disoccluded = 0, visible = 0;
     float worst = 0.0f;
     double everywhere = 0.0;
     for (uint32_t y = 0; y < now.visibility.height; ++y)
@@ -114,14 +114,14 @@ TEST_F(Flythrough, walkingToastersLeaveNoTrail) {
             const float difference = std::abs(visibilityAt(now, x, y) - visibilityAt(bare.back(), x, y));
             everywhere += double(difference);
             visible += difference > 0.1f;
-            if (!std::isfinite(depthAt(now, x, y)) || depthAt(then, x, y) > 0.95f * depthAt(now, x, y)) continue;  // else something stood before this
+            if (!std::isfinite(depthAt(now, x, y)) || depthAt(then, x, y) > 0.95f * depthAt(now, x, y)) continue;  // keep only pixels disoccluded in this frame
             worst = std::max(worst, difference);
-            ++vacated;
+            ++disoccluded;
         }
     const size_t count = size_t(now.visibility.width) * now.visibility.height;
-    printf("%zu px vacated, worst %.4f; everywhere mean %.5f, %zu px by more than 0.1\n", vacated, double(worst), everywhere / double(count), visible);
-    EXPECT_GT(vacated, 50u);
-    EXPECT_LT(worst, 0.1f) << "the past of what stood there before";
+    printf("%zu px disoccluded, worst %.4f; whole image: mean %.5f, %zu px by more than 0.1\n", disoccluded, double(worst), everywhere / double(count), visible);
+    EXPECT_GT(disoccluded, 50u);
+    EXPECT_LT(worst, 0.1f) << "history of the occluder remains";
     EXPECT_LT(everywhere / double(count), 0.004);
     EXPECT_LT(visible, count / 1000);
 }

@@ -1,5 +1,5 @@
-// Off-screen occluders where the answer is known [offscreen.md, 5.5]: nothing where nothing is, nothing twice, and a tall box beside the
-// picture that obscures as if it were seen.
+// Off-screen occluders where the exact value is known: empty voxels add nothing, visible occluders are not counted twice, and a tall box
+// outside the image has its exact obscurance.
 #include "ao/method_test.h"
 #include "tall_box.h"
 
@@ -11,7 +11,7 @@ constexpr float kOff = 0, kOffScreen = 1, kHidden = 2;
 class OffScreenTest : public MethodTest {
 protected:
     OffScreenTest() : MethodTest("hbao") {}
-    // Of each method that has the switch, or the chosen one.
+    // The methods with the parameter `offscreen`.
     static std::vector<const ao::MethodInfo*> offered() {
         std::vector<const ao::MethodInfo*> result;
         for (const ao::MethodInfo* info : ao::methods())
@@ -21,7 +21,7 @@ protected:
     Picture with(const Room& room, float offscreen, const char* falloff = "quadratic:2", const std::string& preset = "default") {
         return run(room, values({{"offscreen", offscreen}}, preset), falloff);
     }
-    // Of a point of the world, bilinear.
+    // Obscurance at a world point, bilinear.
     double obscurance(const TallBox& box, const TallBox::Point& p, float offscreen) {
         const Picture picture = with(box, offscreen);
         const auto at = box.pixelOf(p);
@@ -39,7 +39,7 @@ protected:
     Picture with(const TallBox& box, float offscreen) { return run(box, box.seen(), values({{"offscreen", offscreen}}), "quadratic:2"); }
 };
 
-TEST_F(OffScreenTest, everyMethodOfTheScreenHasTheSwitchAndNeedsAVolumeForIt) {
+TEST_F(OffScreenTest, everyScreenSpaceMethodHasTheParameterAndNeedsAVolume) {
     EXPECT_GE(offered().size(), 6u);
     for (const ao::MethodInfo* info : offered()) {
         ao::Values values(*info);
@@ -50,7 +50,7 @@ TEST_F(OffScreenTest, everyMethodOfTheScreenHasTheSwitchAndNeedsAVolumeForIt) {
     for (const char* id : {"none", "hybrid"}) EXPECT_FALSE(ao::Values(*ao::findMethod(id)).has("offscreen")) << id;
 }
 
-TEST_F(OffScreenTest, emptyVoxelsAndBarePlanesAddNothing) {
+TEST_F(OffScreenTest, emptyVoxelsAndPlanesAddNothing) {
     Room bare;
     bare.build();
     for (const float tilt : {0.0f, 0.3f, 0.785398f, 1.1f}) {
@@ -67,7 +67,7 @@ TEST_F(OffScreenTest, emptyVoxelsAndBarePlanesAddNothing) {
     }
 }
 
-TEST_F(OffScreenTest, whatThePictureShowsIsNotCountedAgain) {
+TEST_F(OffScreenTest, visibleOccludersAreNotCountedTwice) {
     Room walled;
     walled.wall = -4.0f;
     walled.build();
@@ -75,27 +75,27 @@ TEST_F(OffScreenTest, whatThePictureShowsIsNotCountedAgain) {
     EXPECT_GT(highest(alone), 0.2f);
     for (const float what : {kOffScreen, kHidden}) {
         const Picture both = with(walled, what);
-        // The wall goes on beside the picture, which is to be counted; well inside there is nothing to add.
+        // The wall continues outside the image and counts there; well inside the image nothing is added.
         for (uint32_t y = 0; y < walled.visibleHeight(); ++y)
             for (uint32_t x = 48; x < walled.visibleWidth() - 48; ++x) {
                 const size_t i = size_t(y) * walled.visibleWidth() + x;
                 EXPECT_NEAR(both[i], alone[i], 0.02f) << x << ' ' << y;
             }
     }
-    // A box wholly in the picture has sides that are hidden, behind those that a horizon method sees.
+    // A box inside the image has hidden faces behind the visible ones, which a horizon method already counts.
     TallBox box({2.0, TallBox::kFloor, -5.5}, {3.2, 1.4, -4.0});
-    box.look(-18.0 * TallBox::kPi / 180);
+    box.turnTo(-18.0 * TallBox::kPi / 180);
     const double added = mean(with(box, kHidden)) - mean(with(box, kOff));
     EXPECT_GE(added, 0.0);
-    printf("a box in view: %.5f more\n", added);
+    printf("a visible box: %.5f added\n", added);
     EXPECT_LT(added, 0.0005);
 }
 
-// With depth layers what ends is solid from front to back and no farther, whatever thickness is else assumed: the back of a solid box is
-// counted already, behind a front of a box that is but a panel nothing is.
-TEST_F(OffScreenTest, depthLayersSayWhatHasBeenCounted) {
+// With depth layers a solid extends from its front to its back, whatever the parameter `thickness`: so the back of a solid box is already
+// counted, while behind a box drawn as a thin panel it is not.
+TEST_F(OffScreenTest, depthLayersExcludeCountedSolids) {
     TallBox box({2.0, TallBox::kFloor, -5.5}, {3.2, 1.4, -4.0});
-    box.look(-18.0 * TallBox::kPi / 180);
+    box.turnTo(-18.0 * TallBox::kPi / 180);
     box.thickness.assign(box.depth.size(), 65504.0f);
     box.second.assign(2 * box.depth.size(), 0.0f);
     Room panel = box;
@@ -123,24 +123,24 @@ TEST_F(OffScreenTest, depthLayersSayWhatHasBeenCounted) {
             return of(kHidden) - of(kOff);
         };
         const double solid = added(box, 0.1f), hollow = added(panel, 1000.0f);
-        printf("%-8s a solid box in view: %.5f more; its front alone: %.5f\n", method, solid, hollow);
+        printf("%-8s a visible solid box: %.5f added; a thin panel: %.5f added\n", method, solid, hollow);
         EXPECT_GE(solid, 0.0) << method;
         EXPECT_LT(solid, 0.0002) << method;
         EXPECT_GT(hollow, 0.0004) << method;
     }
 }
 
-TEST_F(OffScreenTest, withoutAVolumeTheMethodStandsAloneAndOneLineSaysSo) {
+TEST_F(OffScreenTest, withoutVolumeNothingIsAddedAndOneLineIsLogged) {
     Room none;
     none.wall = -4.0f;
     none.build();
     none.bits.clear();
     const Picture alone = with(none, kOff);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(with(none, kHidden), alone);
-    EXPECT_EQ(std::count_if(logged().begin(), logged().end(), [](const std::string& line) { return line.find("brings no volume") != std::string::npos; }), 1);
+    EXPECT_EQ(std::count_if(logged().begin(), logged().end(), [](const std::string& line) { return line.find("has no volume") != std::string::npos; }), 1);
 }
 
-TEST_F(OffScreenTest, aTallBoxBesideThePictureObscuresAsIfItWereSeen) {
+TEST_F(OffScreenTest, boxOutsideTheImageHasItsExactObscurance) {
     TallBox box;
     ao::Falloff rho;
     ASSERT_TRUE(ao::parseFalloff("quadratic:2", rho));
@@ -152,11 +152,11 @@ TEST_F(OffScreenTest, aTallBoxBesideThePictureObscuresAsIfItWereSeen) {
             for (double& v : p) v *= double(z);
             if (z < 100.0f && std::abs(p[0]) < 3.0 && p[2] > -9.0) truth[size_t(y) * box.visibleWide() + x] = box.truth(p, rho);
         }
-    for (const float n : box.normals) ASSERT_TRUE(n == 0.0f || n == 1.0f);  // floor alone: the box is not in the buffer
+    for (const float n : box.normals) ASSERT_TRUE(n == 0.0f || n == 1.0f);  // only the floor is in the depth buffer, not the box
     for (const ao::MethodInfo* info : offered()) {
         m_method = info->id;
         const Picture alone = with(box, kOff), offscreen = with(box, kOffScreen), hidden = with(box, kHidden);
-        // Errors of the picture, and of what voxels add to it: some methods find something on a bare floor already, which is not the voxels' doing.
+        // Error of the result, and of the part added by voxels: some methods obscure a bare floor even without voxels.
         double error[3] = {}, added[3] = {}, mean = 0.0;
         size_t count = 0;
         for (size_t i = 0; i < truth.size(); ++i) {
@@ -171,16 +171,16 @@ TEST_F(OffScreenTest, aTallBoxBesideThePictureObscuresAsIfItWereSeen) {
         }
         ASSERT_GT(count, 500u);
         const double n = double(count);
-        printf("%-18s %zu pixels miss the box, obscurance %.4f there; error alone %.4f, offscreen %.4f, hidden %.4f: %.1f times less; of what is added %.4f: %.1f times\n", info->id,
+        printf("%-18s %zu px lack the box, obscurance %.4f; error alone %.4f, offscreen %.4f, hidden %.4f: %.1f times less; of the added part %.4f: %.1f times\n", info->id,
                count, mean / n, error[0] / n, error[1] / n, error[2] / n, error[0] / error[2], added[2] / n, added[0] / added[2]);
         EXPECT_LT(added[1], added[0] / 8) << info->id;
         EXPECT_LT(added[2], added[0] / 8) << info->id;
-        if (!info->yardstick) { EXPECT_LT(error[2], error[0] / 8) << info->id; }
+        if (!info->baseline) { EXPECT_LT(error[2], error[0] / 8) << info->id; }
     }
 }
 
-// Above its horizons horizon_split can trace voxels itself: it then sees the box, and the off-screen pass has nothing to add.
-TEST_F(OffScreenTest, raysThroughVoxelsSeeTheBoxAndAreNotCountedTwice) {
+// horizon_split can trace voxels above its horizons: it then includes the box, and the off-screen pass adds nothing.
+TEST_F(OffScreenTest, raysThroughVoxelsAreNotCountedTwice) {
     m_method = "horizon_split";
     TallBox box;
     const Changes voxels{{"rays_in", 1}}, both{{"rays_in", 1}, {"offscreen", kHidden}};
@@ -189,13 +189,13 @@ TEST_F(OffScreenTest, raysThroughVoxelsSeeTheBoxAndAreNotCountedTwice) {
     EXPECT_LT(mean(with(box, kOff)), 1e-4);
     EXPECT_NEAR(mean(traced), mean(with(box, kOffScreen)), 0.1 * mean(traced));
     EXPECT_EQ(run(box, box.seen(), values(both), "quadratic:2"), traced);
-    box.bits.clear();  // without a volume the depth buffer has to do
+    box.bits.clear();  // without a volume rays use the depth buffer
     EXPECT_EQ(run(box, box.seen(), values(voxels), "quadratic:2"), with(box, kOff));
 }
 
-// Beside the box a point of the floor, whose face is well seen: from the middle of the picture the camera yaws until the box has left
-// guard band and all, and the point is about to. What remains is what the method itself makes of a box that it sees.
-TEST_F(OffScreenTest, aPointOfTheFloorKeepsItsObscuranceWhileTheCameraYawsPastTheBox) {
+// A floor point beside a box. The camera yaws until the box has left the guard band and the point is about to leave the image: the
+// obscurance of the point must stay constant.
+TEST_F(OffScreenTest, obscuranceIsConstantWhileTheBoxLeavesTheImage) {
     TallBox box({2.0, TallBox::kFloor, -5.5}, {3.2, 1.4, -4.0});
     const TallBox::Point p{1.2, TallBox::kFloor, -4.75};
     ao::Falloff rho;
@@ -204,32 +204,32 @@ TEST_F(OffScreenTest, aPointOfTheFloorKeepsItsObscuranceWhileTheCameraYawsPastTh
     for (const ao::MethodInfo* info : offered()) {
         m_method = info->id;
         Range whole[2];
-        // Methods that see the box about right lose it without voxels; with them no more changes than their own noise.
+        // Methods that are accurate while the box is visible lose it without voxels; with voxels only their noise remains.
         const bool sees = std::string(info->id) == "hbao" || std::string(info->id) == "horizon_split" || std::string(info->id) == "far_field";
         for (int step = sees ? 0 : 24; step <= 24; ++step) {
-            box.look((31.0 - 60.0 * (1.0 - step / 24.0)) * TallBox::kPi / 180);
+            box.turnTo((31.0 - 60.0 * (1.0 - step / 24.0)) * TallBox::kPi / 180);
             for (const float what : {kOff, kHidden}) whole[what == kHidden].add(obscurance(box, p, what));
         }
         const double outside = obscurance(box, p, kHidden) - obscurance(box, p, kOff);
-        printf("%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; voxels add %.4f when all of it is outside\n",
+        printf("%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; voxels add %.4f once the box is outside\n",
                info->id, truth, whole[0].changes(), whole[1].changes(), outside);
         EXPECT_NEAR(outside, truth, 0.02) << info->id;
         if (sees) { EXPECT_LT(whole[1].changes(), whole[0].changes() / 4) << info->id; }
     }
 }
 
-// And what voxels add rests on the floor: the box stays outside while the camera yaws on in small steps. (A method that sees nothing.)
-TEST_F(OffScreenTest, whatVoxelsAddRestsOnTheFloorWhileTheCameraYaws) {
+// The obscurance added by voxels is fixed to the floor: the box stays outside while the camera yaws in small steps.
+TEST_F(OffScreenTest, addedObscuranceIsFixedToTheWorld) {
     m_method = "statistical";
     TallBox box(640);
     for (const double x : {-0.8, -1.2}) {
         Range range;
         for (int step = 0; step <= 8; ++step) {
-            box.look(box.away() + 0.008 * step);
+            box.turnTo(box.away() + 0.008 * step);
             range.add(obscurance(box, {x, TallBox::kFloor, -4.5}, kHidden));
         }
         printf("%.1f m from the box: %.4f to %.4f\n", 0.1 - x, range.least, range.most);
-        EXPECT_LT(range.changes(), 1.0) << x;  // noise that went with the pixels: twice as much
+        EXPECT_LT(range.changes(), 1.0) << x;  // noise fixed to pixels would give twice as much
     }
 }
 

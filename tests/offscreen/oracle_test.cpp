@@ -1,5 +1,5 @@
-// The stored analytic scenes from end to end, triangles to voxels to picture, against references that were ray-traced in the world: no
-// method is worse for the occluders that voxels add [offscreen.md, 5.3]. Skipped where the folder is missing.
+// The stored analytic scenes end to end, from triangles to voxels to visibility, against references ray-traced in the world: off-screen
+// occluders increase no method's error. Skipped without the folder of references.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +18,7 @@ struct Error {
     double eA = -1.0, bias = 0.0;
 };
 
-// By method; `settings` as on a command line.
+// Errors by method; `settings` as on the command line.
 std::map<std::string, Error> errors(const fs::path& folder, const std::string& scene, const std::string& settings) {
     const fs::path result = fs::path(testing::TempDir()) / ("obscura-offscreen-" + scene + ".json");
     const std::string command = obscura::test::shellCommand(
@@ -42,9 +42,9 @@ void expectNoWorse(const std::string& scene) {
     ASSERT_EQ(alone.size(), 5u);
     for (const auto& [method, error] : alone) {
         const Error& both = hidden.at(method);
-        printf("%-7s %-17s quadratic:2 world: eA %.4f alone, %.4f with what is hidden\n", scene.c_str(), method.c_str(), error.eA, both.eA);
+        printf("%-7s %-17s quadratic:2 world: eA %.4f alone, %.4f with hidden occluders\n", scene.c_str(), method.c_str(), error.eA, both.eA);
         EXPECT_LE(both.eA, error.eA) << method;
-        // In the corner nearly all occluders are seen: little may be added.
+        // In the corner nearly all occluders are visible, so little may be added.
         if (scene == "corner" && method != "far_field") {
             EXPECT_LT(error.bias - both.bias, 0.0015) << method;
         }
@@ -52,7 +52,7 @@ void expectNoWorse(const std::string& scene) {
     }
 }
 
-TEST(OffScreenOracle, corner) { expectNoWorse("corner"); }
-TEST(OffScreenOracle, atrium) { expectNoWorse("atrium"); }
+TEST(OffScreenOracle, cornerIsNoWorse) { expectNoWorse("corner"); }
+TEST(OffScreenOracle, atriumIsNoWorse) { expectNoWorse("atrium"); }
 
 }  // namespace

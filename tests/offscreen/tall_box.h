@@ -1,6 +1,6 @@
-// A floor and a tall box that stands on it, by default along the plane in which the picture's guard band ends when the camera looks
-// away(): seen from 1.6 m above the floor, the box is outside of the buffer by a hand's breadth, its obscurance within the picture.
-// Depth, normals and bits are cast analytically for any yaw of the camera; the truth by rays.
+// A floor and a tall box on it, seen from 1.6 m above the floor. When the camera yaws by away(), the box is just outside the guard band (by
+// 0.1 m at the default position), while its obscurance falls inside the image. Depth, normals and voxel bits are analytic for any yaw;
+// the exact obscurance is ray-traced.
 #pragma once
 
 #include "ao/room.h"
@@ -10,10 +10,10 @@ namespace obscura::test {
 struct TallBox : Room {
     static constexpr double kPi = 3.14159265358979;
     static constexpr float kCell = 0.08f, kFloor = -1.6f;
-    // World: the camera at the origin, y up; yaw 0 looks down -z, more turns left.
+    // World: the camera at the origin, y up; yaw 0 looks down -z, positive yaw turns left.
     using Point = std::array<double, 3>;
     Point low{0.1, kFloor, -6.0}, high{1.3, 1.4, -3.0};
-    // Half of the field of view, guard band and all.
+    // Half of the horizontal field of view, guard band included, radians.
     double away() const { return std::atan(std::tan(kPi / 6) * double(width) / visibleTall()); }
     uint32_t visibleWide() const { return width - 2 * guards.width; }
     uint32_t visibleTall() const { return height - 2 * guards.height; }
@@ -28,11 +28,11 @@ struct TallBox : Room {
         width = wide + 2 * guards.width;
         height = wide * 9 / 16 + 2 * guards.height;
         fill();
-        look(away());
+        turnTo(away());
     }
 
-    // The bits rest; the camera turns.
-    void look(double turned) {
+    // Turns the camera; the voxel bits stay.
+    void turnTo(double turned) {
         yaw = turned;
         const double fy = 1.0 / std::tan(kPi / 6) * visibleTall() / height, fx = fy * height / width;
         const float p[16] = {float(fx), 0, 0, 0, 0, float(-fy), 0, 0, 0, 0, 0, -1, 0, 0, 0.1f, 0};
@@ -68,12 +68,12 @@ struct TallBox : Room {
         return result;
     }
 
-    // World direction through a place of the buffer, px; one metre of linear depth long.
+    // World direction through a position of the image, px; 1 m of linear depth long.
     Point direction(double x, double y) const {
         const double ex = (x / width * 2.0 - 1.0) / double(projection[0]), ey = (y / height * 2.0 - 1.0) / double(projection[5]);
         return {ex * std::cos(yaw) - std::sin(yaw), ey, -ex * std::sin(yaw) - std::cos(yaw)};
     }
-    // Where the visible part shows a point of the world, px.
+    // Position of a world point in the visible part, px.
     std::array<double, 2> pixelOf(const Point& p) const {
         const double right = p[0] * std::cos(yaw) - p[2] * std::sin(yaw), ahead = -p[0] * std::sin(yaw) - p[2] * std::cos(yaw);
         return {(right / ahead * double(projection[0]) + 1.0) * 0.5 * width - guards.width, (p[1] / ahead * double(projection[5]) + 1.0) * 0.5 * height - guards.height};
@@ -91,7 +91,7 @@ struct TallBox : Room {
         }
         return from < to ? from : 1e9;
     }
-    // Obscurance of a point of the floor.
+    // Obscurance of a floor point.
     double truth(const Point& p, const ao::Falloff& rho) const {
         constexpr int kSide = 48;
         double sum = 0.0;

@@ -1,10 +1,11 @@
-// The deform pass against scene::deform.
+// The GPU deform pass against scene::deform on the CPU.
 #include <algorithm>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>
 
-#include "bench.h"
+#include "fixture.h"
+#include "graph/executor.h"
 #include "render/deform.h"
 
 namespace obscura::test {
@@ -20,7 +21,7 @@ std::vector<std::byte> contents(gpu::Device& device, VkBuffer source, uint64_t b
     return {back.mapped(), back.mapped() + bytes};
 }
 
-void prove(std::shared_ptr<const scene::Model> model) {
+void compareWithCpu(std::shared_ptr<const scene::Model> model) {
     gpu::ShaderLibrary shaders;
     shaders.add(render::shaders());
     render::Deform deform;
@@ -34,6 +35,7 @@ void prove(std::shared_ptr<const scene::Model> model) {
 
     render::Actors actors;
     graph::Graph graph(device());
+    graph::Executor executor(device());
     for (int frame = 0; frame < 3; ++frame) {
         const float time = 0.1f + 0.17f * float(frame);
         actors.update(world, time, false, [&](const scene::Model*) { return &gpuModel; });
@@ -41,7 +43,7 @@ void prove(std::shared_ptr<const scene::Model> model) {
         graph.begin();
         const render::Deform::Posed posed = deform.add(graph, actors);
         gpu::Status status = gpu::Status::ok;
-        ASSERT_EQ(device().runNow([&](VkCommandBuffer cmd) { status = graph.execute(cmd); }), gpu::Status::ok);
+        ASSERT_EQ(device().runNow([&](VkCommandBuffer cmd) { status = executor.execute(graph, cmd); }), gpu::Status::ok);
         ASSERT_EQ(status, gpu::Status::ok) << allLogged();
         const auto positions = contents(device(), posed.buffers.now, uint64_t(actors.posedCapacity()) * render::kPositionBytes);
         const auto frames = contents(device(), posed.buffers.frames, uint64_t(actors.posedCapacity()) * render::kFrameBytes);
@@ -70,7 +72,7 @@ void prove(std::shared_ptr<const scene::Model> model) {
                 const scene::Bounds& box = drawable.bounds;
                 const glm::vec3 world_ = glm::vec3(instance.placement * glm::vec4(expected[v], 1.0f));
                 ASSERT_TRUE(glm::all(glm::greaterThanEqual(world_, box.min - 1e-4f)) && glm::all(glm::lessThanEqual(world_, box.max + 1e-4f)))
-                    << "bounds do not hold vertex " << v;
+                    << "bounds do not contain vertex " << v;
             }
             EXPECT_LT(worst, 1e-5f);
             EXPECT_LT(worstNormal, 3e-4f);  // snorm16
@@ -81,10 +83,10 @@ void prove(std::shared_ptr<const scene::Model> model) {
     deform.forget(gpuModel);
 }
 
-TEST_F(Deform, skinsAsTheCpuDoes) { prove(bendingBar()); }
-TEST_F(Deform, morphsAsTheCpuDoes) { prove(wavingPatch()); }
+TEST_F(Deform, skinningMatchesTheCpu) { compareWithCpu(bendingBar()); }
+TEST_F(Deform, morphingMatchesTheCpu) { compareWithCpu(wavingPatch()); }
 
-TEST_F(Deform, restsWhenThePoseDoes) {
+TEST_F(Deform, unchangedPoseNeedsNoJob) {
     scene::World world;
     const auto model = bendingBar();
     render::ModelGpu gpuModel;
@@ -96,7 +98,7 @@ TEST_F(Deform, restsWhenThePoseDoes) {
         return actors.jobs().size();
     };
     EXPECT_EQ(jobs(0.1f), 1u);
-    EXPECT_EQ(jobs(0.1f), 1u);  // the other of the two buffers
+    EXPECT_EQ(jobs(0.1f), 1u);  // writes the second of the two buffers
     EXPECT_EQ(jobs(0.1f), 0u);
     EXPECT_EQ(jobs(0.2f), 1u);
 }

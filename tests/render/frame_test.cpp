@@ -1,4 +1,4 @@
-// The frame as a whole: guard band, culling, determinism, normals, views, what is released.
+// Whole frames: guard band, culling, determinism, normals, views, released memory.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -6,22 +6,23 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bench.h"
+#include "fixture.h"
+#include "graph/executor.h"
 
 namespace obscura::test {
 namespace {
 
 class Frame : public GpuTest {};
 
-TEST_F(Frame, guardBandAddsAndChangesNothing) {
-    Bench bench;
+TEST_F(Frame, guardBandDoesNotChangeTheVisiblePart) {
+    RenderFixture fixture;
     const scene::World world = mixedWorld();
-    render::FrameOptions options = bench.options();
+    render::FrameOptions options = fixture.options();
     options.time = 0.35f;
     options.guard = 0.0f;
-    const Picture bare = bench.render(world, options);
+    const Picture bare = fixture.render(world, options);
     options.guard = 0.2f;
-    const Picture guarded = bench.render(world, options);
+    const Picture guarded = fixture.render(world, options);
     EXPECT_EQ(guarded.guard.width, 64u);
     EXPECT_EQ(guarded.guard.height, 48u);
     EXPECT_EQ(guarded.size.width, 448u);
@@ -34,43 +35,43 @@ TEST_F(Frame, guardBandAddsAndChangesNothing) {
         }
     EXPECT_GT(covered, 30000u);
     EXPECT_LT(different, 20u);  // edges through pixel centres
-    EXPECT_TRUE(guarded.depth.at<float>(20, 240) > 0.0f) << "the floor goes on in the guard band";
+    EXPECT_TRUE(guarded.depth.at<float>(20, 240) > 0.0f) << "the floor continues in the guard band";
 }
 
 TEST_F(Frame, cullingIsInvisible) {
-    Bench bench;
+    RenderFixture fixture;
     scene::World world = mixedWorld();
     for (int i = 0; i < 12; ++i) world.add(instanceOf(bendingBar(), {3.0f * std::cos(float(i)), 0.0f, 5.0f * std::sin(float(i))}));
-    render::FrameOptions options = bench.options();
+    render::FrameOptions options = fixture.options();
     options.camera.eye = {0, 0.4f, 1.0f};
     for (const float turn : {0.0f, 1.3f, 2.6f, 4.0f, 5.2f}) {
         options.camera.target = options.camera.eye + glm::vec3(std::sin(turn), -0.1f, -std::cos(turn));
         options.time = turn * 0.15f;
         options.cut = true;
         options.cull = true;
-        const Picture culled = bench.render(world, options);
-        const size_t drawn = bench.renderer().facts().drawn;
+        const Picture culled = fixture.render(world, options);
+        const size_t drawn = fixture.renderer().facts().drawn;
         options.cull = false;
-        const Picture whole = bench.render(world, options);
-        EXPECT_LT(drawn, bench.renderer().facts().drawn);
+        const Picture whole = fixture.render(world, options);
+        EXPECT_LT(drawn, fixture.renderer().facts().drawn);
         EXPECT_EQ(culled.color, whole.color) << turn;
         EXPECT_EQ(culled.depth, whole.depth) << turn;
         EXPECT_EQ(culled.normals, whole.normals) << turn;
     }
 }
 
-TEST_F(Frame, sameFrameTwiceIsTheSame) {
+TEST_F(Frame, sameFrameTwiceIsBitIdentical) {
     const scene::World world = mixedWorld();
-    Bench first, second;
+    RenderFixture first, second;
     const ao::Values hbao(*ao::findMethod("hbao"));
     Picture pictures[3];
     int at = 0;
-    for (Bench* bench : {&first, &second, &second}) {
-        render::FrameOptions options = bench->options();
+    for (RenderFixture* fixture : {&first, &second, &second}) {
+        render::FrameOptions options = fixture->options();
         options.method = &hbao;
         options.time = 0.6f;
         options.cut = true;
-        pictures[at++] = bench->render(world, options);
+        pictures[at++] = fixture->render(world, options);
     }
     for (int i = 1; i < 3; ++i) {
         EXPECT_EQ(pictures[0].color, pictures[i].color);
@@ -80,9 +81,9 @@ TEST_F(Frame, sameFrameTwiceIsTheSame) {
     }
 }
 
-// Geometric normals are the triangles', whatever the vertex normals say, and face the viewer.
-TEST_F(Frame, normalsAreTheTrianglesAndFaceTheViewer) {
-    Bench bench;
+// Geometric normals follow the triangles, not the vertex normals, and face the camera.
+TEST_F(Frame, normalsAreGeometricAndFaceTheCamera) {
+    RenderFixture fixture;
     scene::World world;
     scene::Material twoSided;
     twoSided.doubleSided = true;
@@ -90,8 +91,8 @@ TEST_F(Frame, normalsAreTheTrianglesAndFaceTheViewer) {
     auto back = with(floorPlate(), twoSided);  // seen from below
     for (glm::vec3& n : back->meshes[0].primitives[0].normals) n = glm::vec3(0.6f, 0.8f, 0.0f);
     world.add(instanceOf(back, {0, 2.5f, 0}));
-    render::FrameOptions options = bench.options();
-    const Picture picture = bench.render(world, options);
+    render::FrameOptions options = fixture.options();
+    const Picture picture = fixture.render(world, options);
     const glm::mat3 eye(options.camera.view());
     const glm::mat4 projection = options.camera.projection({picture.size.width, picture.size.height}, {320, 240});
     const float epsilon = 2e-3f;
@@ -113,19 +114,19 @@ TEST_F(Frame, normalsAreTheTrianglesAndFaceTheViewer) {
     EXPECT_EQ(wrong, 0u);
 }
 
-// Mirrored instances show their outsides: no hole and no inside where the plain one has a face.
+// Mirrored instances show their front faces, like the unmirrored one.
 TEST_F(Frame, mirroredInstancesKeepTheirFaces) {
-    Bench bench;
+    RenderFixture fixture;
     scene::World world;
     scene::Instance cube = instanceOf(turningCube());
     cube.animation = -1;
     world.add(cube);
-    render::FrameOptions options = bench.options();
+    render::FrameOptions options = fixture.options();
     options.camera.eye = {0.0f, 0.8f, 3.0f};
-    const Picture plain = bench.render(world, options);
+    const Picture plain = fixture.render(world, options);
     world.instances()[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
     options.cut = true;
-    const Picture mirrored = bench.render(world, options);
+    const Picture mirrored = fixture.render(world, options);
     size_t different = 0;
     for (size_t i = 0; i < size_t(plain.size.width) * plain.size.height; ++i) {
         const uint32_t x = uint32_t(i % plain.size.width), y = uint32_t(i / plain.size.width);
@@ -134,15 +135,15 @@ TEST_F(Frame, mirroredInstancesKeepTheirFaces) {
     EXPECT_LT(different, 50u);
 }
 
-TEST_F(Frame, masksCutAndBlendsStayOutOfDepth) {
-    Bench bench;
-    render::FrameOptions options = bench.options();
+TEST_F(Frame, masksCutHolesAndBlendsWriteNoDepth) {
+    RenderFixture fixture;
+    render::FrameOptions options = fixture.options();
     const auto covered = [&](const scene::Material& material, bool skipMasked = false) {
         scene::World world;
         world.add(instanceOf(with(wavingPatch(), material)));
         options.skipMasked = skipMasked;
         options.cut = true;
-        const Picture picture = bench.render(world, options);
+        const Picture picture = fixture.render(world, options);
         size_t count = 0;
         for (uint32_t y = 0; y < picture.size.height; ++y)
             for (uint32_t x = 0; x < picture.size.width; ++x) count += picture.depth.at<float>(x, y) > 0.0f;
@@ -163,29 +164,29 @@ TEST_F(Frame, masksCutAndBlendsStayOutOfDepth) {
     material.baseColor.a = 0.0f;
     const auto [clear, clearColor] = covered(material);
     EXPECT_EQ(clear, 0u);
-    EXPECT_GT(glm::length(blendedColor - clearColor), 8.0f) << "a blended surface is seen";
+    EXPECT_GT(glm::length(blendedColor - clearColor), 8.0f) << "a blended surface is visible";
 }
 
 TEST_F(Frame, viewsParseAndShow) {
-    Bench bench;
+    RenderFixture fixture;
     const scene::World world = mixedWorld();
     for (const render::View view : render::kViews) {
         render::View parsed = render::View::pass;
         std::string pass;
         ASSERT_TRUE(render::parseView(render::name(view), parsed, pass));
         EXPECT_EQ(parsed, view);
-        render::FrameOptions options = bench.options();
+        render::FrameOptions options = fixture.options();
         options.view = view;
-        const Picture picture = bench.render(world, options);
+        const Picture picture = fixture.render(world, options);
         EXPECT_EQ(picture.color.width, 320u);
         if (view == render::View::visibility) {
             EXPECT_EQ(picture.color.at<glm::u8vec4>(100, 100), glm::u8vec4(255)) << "nothing is obscured";
         }
     }
     for (const char* text : {"pass:gbuffer", "pass:shadow", "pass:lighting", "pass:prepare.depth", "pass:no such pass"}) {
-        render::FrameOptions options = bench.options();
+        render::FrameOptions options = fixture.options();
         ASSERT_TRUE(render::parseView(text, options.view, options.passView));
-        bench.render(world, options);
+        fixture.render(world, options);
     }
     render::View view;
     std::string pass;
@@ -193,9 +194,9 @@ TEST_F(Frame, viewsParseAndShow) {
     EXPECT_FALSE(render::parseView("pass:", view, pass));
 }
 
-// Another scene's models, whose own are gone by then, leave their room in the posed buffers as they found it.
-TEST_F(Frame, aSceneSwitchLeavesNothingBehind) {
-    Bench switched, fresh;
+// Ranges of the posed buffers freed by another scene's models are reused without trace.
+TEST_F(Frame, sceneSwitchLeavesNoTrace) {
+    RenderFixture switched, fresh;
     scene::World second;
     for (const float x : {-1.0f, 0.0f, 1.0f}) {
         second.add(instanceOf(wavingPatch(), {x, 0.2f, -1.0f}));
@@ -211,23 +212,24 @@ TEST_F(Frame, aSceneSwitchLeavesNothingBehind) {
     EXPECT_EQ(switched.render(second, options).depth, fresh.render(second, options).depth);
 }
 
-// Bricks are told once: they are sent even in a frame that shows something else.
-TEST_F(Frame, voxelsArriveThoughNobodyLooksAtThem) {
+// Each brick is uploaded once, even in a frame that does not read the volume.
+TEST_F(Frame, voxelsAreUploadedInCulledFrames) {
     graph::Graph graph(device());
+    graph::Executor executor(device());
     render::VoxelVolume voxels;
     scene::World world;
     world.add(instanceOf(floorPlate()));
-    const scene::Camera camera = Bench().options().camera;
+    const scene::Camera camera = RenderFixture().options().camera;
     gpu::Buffer back;
     uint64_t bytes = 0;
-    for (const bool looked : {false, true}) {
+    for (const bool isRead : {false, true}) {
         device().nextFrame();
         graph.begin();
         ao::Volume volume;
         const graph::BufferId bits = voxels.add(graph, {world, 0.0f, camera, {}, {}, true}, {}, volume);
         ASSERT_TRUE(bool(bits));
         bytes = uint64_t(volume.cells) * volume.cells * volume.cells / 8;
-        if (looked) {
+        if (isRead) {
             ASSERT_EQ(gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
             graph.pass("read back").use(bits, graph::Access::transferRead).use(graph.import("back", back, graph::Graph::Shared::written), graph::Access::transferWrite)
                 .keep().record([&, bits](const graph::PassContext& c) {
@@ -235,7 +237,7 @@ TEST_F(Frame, voxelsArriveThoughNobodyLooksAtThem) {
                     c.device.vk().CmdCopyBuffer(c.cmd, c.buffer(bits).buffer, back.handle(), 1, &region);
                 });
         }
-        ASSERT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
+        ASSERT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(executor.execute(graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
     }
     const auto* words = reinterpret_cast<const uint32_t*>(back.mapped());
     size_t set = 0;
@@ -244,25 +246,25 @@ TEST_F(Frame, voxelsArriveThoughNobodyLooksAtThem) {
     EXPECT_GT(set, 100u);
 }
 
-TEST_F(Frame, removedModelsLeaveMemory) {
-    Bench bench;
+TEST_F(Frame, removedModelsFreeTheirMemory) {
+    RenderFixture fixture;
     scene::World world;
     world.add(instanceOf(floorPlate()));
-    bench.render(world, bench.options());
+    fixture.render(world, fixture.options());
     device().waitIdle();
     const uint64_t before = device().memoryUse();
-    const uint64_t bytes = bench.renderer().facts().geometryBytes;
+    const uint64_t bytes = fixture.renderer().facts().geometryBytes;
     auto big = bendingBar();
     big->images[0].width = big->images[0].height = 1024;
     big->images[0].rgba.assign(4u << 20, 200);
     const uint32_t id = world.add(instanceOf(big));
-    bench.render(world, bench.options());
+    fixture.render(world, fixture.options());
     EXPECT_GT(device().memoryUse(), before + (4u << 20));
-    EXPECT_GT(bench.renderer().facts().geometryBytes, bytes);
+    EXPECT_GT(fixture.renderer().facts().geometryBytes, bytes);
     world.remove(id);
-    bench.render(world, bench.options());
+    fixture.render(world, fixture.options());
     device().waitIdle();
-    EXPECT_EQ(bench.renderer().facts().geometryBytes, bytes);
+    EXPECT_EQ(fixture.renderer().facts().geometryBytes, bytes);
     EXPECT_LT(device().memoryUse(), before + (1u << 20));
 }
 

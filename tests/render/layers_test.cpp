@@ -1,11 +1,11 @@
-// Depth layers: what lies behind the visible surface, drawn by either form, of everything that can be drawn.
+// Depth layers behind the visible surface, drawn by either technique, for every kind of geometry.
 #include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 
-#include "bench.h"
+#include "fixture.h"
 #include "render/layers.h"
 #include "scene/pose.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kNear = 0.05f;
 
-float depthAt(const Picture& picture, uint32_t x, uint32_t y) {  // linear; 0: nothing there
+float depthAt(const Picture& picture, uint32_t x, uint32_t y) {  // linear; 0: sky
     const float d = picture.depth.at<float>(x, y);
     return d > 0.0f ? kNear / d : 0.0f;
 }
@@ -22,20 +22,20 @@ float thicknessAt(const Picture& picture, uint32_t x, uint32_t y) { return glm::
 
 class Layers : public GpuTest {
 protected:
-    Picture draw(const scene::World& world, ao::LayerUse use, render::LayerForm form, const std::function<void(render::FrameOptions&)>& change = {}) {
+    Picture draw(const scene::World& world, ao::LayerMode use, render::LayerForm form, const std::function<void(render::FrameOptions&)>& change = {}) {
         m_values.set("depth_layers", float(use));
-        render::FrameOptions options = m_bench.options();
+        render::FrameOptions options = m_fixture.options();
         options.method = &m_values;
         options.camera.nearPlane = kNear;
         options.view = render::View::visibility;
         options.layerForm = form;
         options.cut = true;
         if (change) change(options);
-        return m_bench.render(world, options);
+        return m_fixture.render(world, options);
     }
-    Picture draw(const scene::World& world) { return draw(world, ao::LayerUse::second, render::LayerForm::best); }
+    Picture draw(const scene::World& world) { return draw(world, ao::LayerMode::second, render::LayerForm::best); }
 
-    Bench m_bench;
+    RenderFixture m_fixture;
     ao::Values m_values{*ao::findMethod("layered")};
 };
 
@@ -45,7 +45,7 @@ scene::World oneWorld(std::shared_ptr<const scene::Model> model) {
     return world;
 }
 
-// Pixels where something is, and how many of them have a thickness above zero, none, or are endless.
+// Number of covered pixels, and of those with finite thickness and with none.
 struct Counts { size_t covered = 0, thick = 0, sheet = 0; };
 Counts count(const Picture& picture) {
     Counts result;
@@ -60,9 +60,9 @@ Counts count(const Picture& picture) {
     return result;
 }
 
-TEST_F(Layers, theThicknessOfACubeIsThatOfTheCube) {
+TEST_F(Layers, thicknessOfACubeIsExact) {
     const scene::World world = oneWorld(turningCube());
-    render::FrameOptions camera = m_bench.options();
+    render::FrameOptions camera = m_fixture.options();
     const Picture picture = draw(world);
     const scene::Instance& instance = world.instances()[0];
     const glm::mat4 toCube = glm::inverse(instance.placement * scene::evaluate(*instance.model, instance.animation, 0.0f).world[0]);
@@ -87,8 +87,8 @@ TEST_F(Layers, theThicknessOfACubeIsThatOfTheCube) {
     EXPECT_GT(covered, 3000u);
 }
 
-TEST_F(Layers, surfacesComeInOrder) {
-    const Picture picture = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.35f; });
+TEST_F(Layers, layersAreOrderedByDepth) {
+    const Picture picture = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.35f; });
     size_t seconds = 0, solids = 0;
     for (uint32_t y = 0; y < picture.size.height; ++y)
         for (uint32_t x = 0; x < picture.size.width; ++x) {
@@ -107,12 +107,12 @@ TEST_F(Layers, surfacesComeInOrder) {
     EXPECT_GT(seconds, 4000u);
 }
 
-TEST_F(Layers, bothFormsSeeTheSame) {
+TEST_F(Layers, bothTechniquesGiveTheSameLayers) {
     if (!device().caps().fragmentWrites) skip("the device's fragment shaders do not write");
     for (const float time : {0.0f, 0.35f, 0.8f}) {
         const auto at = [&](render::FrameOptions& o) { o.time = time; };
-        const Picture peeled = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::peeling, at);
-        const Picture climbed = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::ladder, at);
+        const Picture peeled = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::peeling, at);
+        const Picture climbed = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::ladder, at);
         size_t thicknesses = 0, seconds = 0;
         for (uint32_t y = 0; y < peeled.size.height; ++y)
             for (uint32_t x = 0; x < peeled.size.width; ++x) {
@@ -124,8 +124,8 @@ TEST_F(Layers, bothFormsSeeTheSame) {
     }
 }
 
-TEST_F(Layers, theCheaperFormIsFoundByUse) {
-    const auto found = [](double peel, double ladder) {  // ms of a hit, of the ladder
+TEST_F(Layers, cheaperTechniqueIsChosenByTime) {
+    const auto found = [](double peel, double ladder) {  // ms per peeling pass, ms of the ladder
         render::FormTrial trial;
         graph::Timings arrived;
         for (int frame = 0; frame < 40; ++frame) {
@@ -142,7 +142,7 @@ TEST_F(Layers, theCheaperFormIsFoundByUse) {
     EXPECT_EQ(found(1.0, 3.5), render::LayerForm::peeling);
     EXPECT_EQ(found(0.0, 0.0), render::LayerForm::ladder);  // a device without timestamps
     if (!device().caps().fragmentWrites) skip("the device's fragment shaders do not write");
-    // And the pictures do not tell.
+    // The technique does not change the images.
     Picture first;
     for (int frame = 0; frame < 12; ++frame) {
         const Picture picture = draw(mixedWorld());
@@ -150,13 +150,13 @@ TEST_F(Layers, theCheaperFormIsFoundByUse) {
         EXPECT_EQ(picture.thickness, first.thickness) << frame;
         EXPECT_EQ(picture.second, first.second) << frame;
     }
-    EXPECT_TRUE(std::any_of(logged().begin(), logged().end(), [](const std::string& line) { return line.find("layers: two surfaces are drawn by") != std::string::npos; }));
+    EXPECT_TRUE(std::any_of(logged().begin(), logged().end(), [](const std::string& line) { return line.find("layers: two depth layers are drawn by") != std::string::npos; }));
 }
 
-TEST_F(Layers, halfSizeIsEveryOtherPixel) {
+TEST_F(Layers, halfSizeIsEverySecondPixel) {
     for (const render::LayerForm form : {render::LayerForm::peeling, render::LayerForm::ladder}) {
         const auto odd = [](render::FrameOptions& o) { o.visible = {301, 199}; };
-        const Picture whole = draw(mixedWorld(), ao::LayerUse::second, form, odd), half = draw(mixedWorld(), ao::LayerUse::secondHalf, form, odd);
+        const Picture whole = draw(mixedWorld(), ao::LayerMode::second, form, odd), half = draw(mixedWorld(), ao::LayerMode::secondHalf, form, odd);
         EXPECT_EQ(whole.thickness, half.thickness);
         EXPECT_EQ(half.second.width, (whole.second.width + 1) / 2);
         size_t different = 0, there = 0;
@@ -171,19 +171,19 @@ TEST_F(Layers, halfSizeIsEveryOtherPixel) {
     }
 }
 
-TEST_F(Layers, closedThingsAreSolidHoweverTheyMove) {
+TEST_F(Layers, closedMeshesAreSolid) {
     scene::World mirrored;
     scene::Instance cube = instanceOf(turningCube());
     cube.placement = glm::scale(glm::mat4(1.0f), glm::vec3(-1.0f, 1.0f, 1.0f));
     mirrored.add(cube);
     for (const scene::World& world : {oneWorld(turningCube()), mirrored, oneWorld(bendingBar())}) {
-        const Counts counts = count(draw(world, ao::LayerUse::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.7f; }));
+        const Counts counts = count(draw(world, ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.7f; }));
         EXPECT_GT(counts.covered, 2000u);
         EXPECT_GT(double(counts.thick), 0.98 * double(counts.covered));
     }
 }
 
-TEST_F(Layers, whatHoldsAnotherEndsAtItsOwnBack) {
+TEST_F(Layers, enclosingSolidEndsAtItsOwnBack) {
     scene::World alone = oneWorld(turningCube()), holding = alone;
     scene::Instance within = instanceOf(turningCube());
     within.placement = within.placement * glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
@@ -200,22 +200,22 @@ TEST_F(Layers, whatHoldsAnotherEndsAtItsOwnBack) {
     EXPECT_LT(different, covered / 100);
 }
 
-TEST_F(Layers, openThingsAreSheetsWhatever) {
+TEST_F(Layers, openMeshesAreSheets) {
     for (const auto& model : {wavingPatch(), floorPlate()}) {
         const Counts counts = count(draw(oneWorld(model)));
         EXPECT_GT(counts.covered, 2000u);
         EXPECT_EQ(counts.sheet, counts.covered);
     }
-    // Seen from behind, with a solid's back face next.
+    // The back side of an open sheet is a sheet as well.
     scene::Material both;
     both.doubleSided = true;
     scene::World world = oneWorld(with(wavingPatch(), both));
-    const Counts behind = count(draw(world, ao::LayerUse::second, render::LayerForm::best, [](render::FrameOptions& o) { o.camera.eye.z = -o.camera.eye.z; }));
+    const Counts behind = count(draw(world, ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.camera.eye.z = -o.camera.eye.z; }));
     EXPECT_GT(behind.covered, 2000u);
     EXPECT_EQ(behind.sheet, behind.covered);
 }
 
-TEST_F(Layers, materialsSayWhatTheyAre) {
+TEST_F(Layers, materialsOverrideTheShell) {
     scene::Material sheet;
     sheet.shell = scene::Shell::sheet;
     const Counts open = count(draw(oneWorld(with(turningCube(), sheet))));
@@ -231,12 +231,12 @@ TEST_F(Layers, materialsSayWhatTheyAre) {
         for (size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
         return model;
     };
-    const Counts untold = count(draw(oneWorld(wrong(scene::Shell::solid)))), told = count(draw(oneWorld(wrong(scene::Shell::flipped))));
-    EXPECT_EQ(untold.sheet, untold.covered);
-    EXPECT_GT(double(told.thick), 0.98 * double(told.covered));
+    const Counts unflipped = count(draw(oneWorld(wrong(scene::Shell::solid)))), flipped = count(draw(oneWorld(wrong(scene::Shell::flipped))));
+    EXPECT_EQ(unflipped.sheet, unflipped.covered);
+    EXPECT_GT(double(flipped.thick), 0.98 * double(flipped.covered));
 }
 
-TEST_F(Layers, holesAreSeenThrough) {
+TEST_F(Layers, maskedHolesAreTransparent) {
     for (const render::LayerForm form : {render::LayerForm::peeling, render::LayerForm::ladder}) {
         const auto world = [](float alpha) {
             scene::Material masked;
@@ -247,7 +247,7 @@ TEST_F(Layers, holesAreSeenThrough) {
             result.add(instanceOf(with(turningCube(), masked), {0.1f, 0, -1.5f}));
             return result;
         };
-        const Picture holes = draw(world(0.2f), ao::LayerUse::second, form), there = draw(world(0.8f), ao::LayerUse::second, form);
+        const Picture holes = draw(world(0.2f), ao::LayerMode::second, form), there = draw(world(0.8f), ao::LayerMode::second, form);
         size_t behind = 0;
         for (uint32_t y = 0; y < there.size.height; ++y)
             for (uint32_t x = 0; x < there.size.width; ++x) {
@@ -258,10 +258,10 @@ TEST_F(Layers, holesAreSeenThrough) {
     }
 }
 
-TEST_F(Layers, theGuardBandHasThemToo) {
+TEST_F(Layers, guardBandHasLayers) {
     const auto guard = [](float fraction) { return [fraction](render::FrameOptions& o) { o.guard = fraction; }; };
-    const Picture bare = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, guard(0.0f));
-    const Picture guarded = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, guard(0.2f));
+    const Picture bare = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, guard(0.0f));
+    const Picture guarded = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, guard(0.2f));
     size_t different = 0;
     for (uint32_t y = 0; y < 240; ++y)
         for (uint32_t x = 0; x < 320; ++x) different += std::abs(thicknessAt(bare, x, y) - thicknessAt(guarded, x + 64, y + 48)) > 3e-3f;
@@ -272,9 +272,9 @@ TEST_F(Layers, theGuardBandHasThemToo) {
     EXPECT_GT(solid, 1000u);
 }
 
-TEST_F(Layers, nobodyElsePaysForThem) {
+TEST_F(Layers, otherMethodsDrawNoLayers) {
     const ao::Values hbao(*ao::findMethod("hbao"));
-    const Picture picture = draw(mixedWorld(), ao::LayerUse::second, render::LayerForm::best, [&](render::FrameOptions& o) { o.method = &hbao; });
+    const Picture picture = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, [&](render::FrameOptions& o) { o.method = &hbao; });
     EXPECT_TRUE(picture.thickness.bytes.empty());
 }
 

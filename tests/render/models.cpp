@@ -1,3 +1,4 @@
+// Small animated test models.
 #include "models.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ scene::Image pattern() {
     return image;
 }
 
-// A grid of n x m quads over p(u, v). Texture coordinates are metres: the pattern is as fine on every face.
+// A grid of n x m quads over p(u, v). Texture coordinates are in metres, so the pattern has the same scale on every face.
 template <class Position>
 void addGrid(Primitive& out, int n, int m, const Position& p, const glm::vec3& normal, const glm::vec3& tangent, const glm::vec2& metres) {
     const uint32_t first = uint32_t(out.positions.size());

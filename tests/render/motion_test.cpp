@@ -1,20 +1,20 @@
-// Motion vectors, proved twice: against where the CPU's pose says each pixel's surface point was, and by pictures - what
-// frame t shows at a pixel, frame t-1 showed where the motion vector points.
+// Motion vectors, tested twice: against the previous position of each surface point by the CPU's pose, and by images: the
+// colour at a pixel of frame t must be the colour of frame t-1 where the motion vector points.
 #include <algorithm>
 #include <cmath>
 
-#include "bench.h"
+#include "fixture.h"
 
 namespace obscura::test {
 namespace {
 
 class Motion : public GpuTest {};
 
-// Which point of which triangle each pixel sees, and at what depth: a rasterizer of our own.
+// A CPU rasterizer: triangle, barycentric coordinates and depth of each pixel.
 struct Seen {
     int primitive = -1;
     uint32_t triangle = 0;
-    glm::vec3 share{0.0f};  // barycentric, in the world
+    glm::vec3 barycentric{0.0f};  // barycentric, world space
     float depth = INFINITY;
 };
 
@@ -66,14 +66,14 @@ struct Step {
 };
 
 struct Errors {
-    std::vector<float> exact, pictured;  // px
+    std::vector<float> exact, fromImages;  // px
     size_t covered = 0;
 };
 
-float percentile(std::vector<float> values, float part) {
+float percentile(std::vector<float> values, float fraction) {
     if (values.empty()) return INFINITY;
     std::sort(values.begin(), values.end());
-    return values[size_t(part * float(values.size() - 1))];
+    return values[size_t(fraction * float(values.size() - 1))];
 }
 
 void compare(const Step& before, const Picture& then, const Step& after, const Picture& now, Errors& errors) {
@@ -92,12 +92,12 @@ void compare(const Step& before, const Picture& then, const Step& after, const P
 
             const scene::PosedPrimitive& was = posedThen[size_t(seen.primitive)];
             glm::vec3 point(0.0f);
-            for (int i = 0; i < 3; ++i) point += seen.share[i] * was.positions[was.primitive->indices[seen.triangle * 3 + uint32_t(i)]];
+            for (int i = 0; i < 3; ++i) point += seen.barycentric[i] * was.positions[was.primitive->indices[seen.triangle * 3 + uint32_t(i)]];
             const glm::vec3 expected = projectThen(point);
             const glm::vec2 here(float(x) + 0.5f, float(y) + 0.5f), found = here + now.motionAt(x, y);
             errors.exact.push_back(glm::length(found - glm::vec2(expected)));
 
-            // Was it in sight? The surface there and around must be this one, by depth.
+            // Was the point visible? The surface at the four texels around must be the same one, by depth.
             const glm::ivec2 at(glm::floor(found - 0.5f));
             bool visible = at.x > int(gx) && at.y > int(gy) && at.x + 2 < int(then.size.width - gx) && at.y + 2 < int(then.size.height - gy);
             for (int k = 0; k < 4 && visible; ++k) {
@@ -106,38 +106,38 @@ void compare(const Step& before, const Picture& then, const Step& after, const P
             }
             if (!visible) continue;
             const glm::vec2 p = here - glm::vec2(gx, gy), q = found - glm::vec2(gx, gy);
-            // By how far the pictures disagree: least squares over the channels' gradients.
+            // Displacement between the images: least squares over the gradients of the channels.
             const glm::vec3 dx = 0.5f * (now.colorAt(p.x + 1, p.y) - now.colorAt(p.x - 1, p.y)), dy = 0.5f * (now.colorAt(p.x, p.y + 1) - now.colorAt(p.x, p.y - 1));
             const glm::vec3 d = then.colorAt(q.x, q.y) - now.colorAt(p.x, p.y);
             const float xx = glm::dot(dx, dx), xy = glm::dot(dx, dy), yy = glm::dot(dy, dy), det = xx * yy - xy * xy;
-            // No pattern to hold on to (ten levels a pixel in every direction), or one finer than pixels resolve.
+            // Skip pixels whose pattern is too flat (below ten levels per px in some direction) or too fine.
             if (det < 100.0f * (xx + yy) || std::max(xx, yy) > 2500.0f) continue;
             const float ex = glm::dot(dx, d), ey = glm::dot(dy, d);
-            errors.pictured.push_back(glm::length(glm::vec2(yy * ex - xy * ey, xx * ey - xy * ex) / det));
+            errors.fromImages.push_back(glm::length(glm::vec2(yy * ex - xy * ey, xx * ey - xy * ex) / det));
         }
 }
 
-void prove(const std::vector<Step>& steps, float guard = 0.1f) {
-    Bench bench;
+void check(const std::vector<Step>& steps, float guard = 0.1f) {
+    RenderFixture fixture;
     Errors errors;
     std::vector<Picture> pictures;
     for (const Step& step : steps) {
-        render::FrameOptions options = bench.options();
+        render::FrameOptions options = fixture.options();
         options.camera = step.camera;
         options.time = step.time;
         options.guard = guard;
         options.visible = {480, 360};
         options.view = render::View::baseColor;
-        pictures.push_back(bench.render(step.world, options));
+        pictures.push_back(fixture.render(step.world, options));
         if (pictures.size() > 1) compare(steps[pictures.size() - 2], pictures[pictures.size() - 2], step, pictures.back(), errors);
     }
     EXPECT_GT(errors.covered, 4000u);
-    EXPECT_GT(errors.pictured.size(), errors.covered / 8);
+    EXPECT_GT(errors.fromImages.size(), errors.covered / 8);
     EXPECT_LT(percentile(errors.exact, 0.5f), 0.02f);
     EXPECT_LT(percentile(errors.exact, 1.0f), 0.1f);
-    EXPECT_LT(percentile(errors.pictured, 0.5f), 0.1f);
-    EXPECT_LT(percentile(errors.pictured, 0.95f), 0.5f);
-    float travelled = 0.0f;  // or it proves nothing
+    EXPECT_LT(percentile(errors.fromImages, 0.5f), 0.1f);
+    EXPECT_LT(percentile(errors.fromImages, 0.95f), 0.5f);
+    float travelled = 0.0f;  // the surfaces must have moved
     const Picture& last = pictures.back();
     for (uint32_t y = 0; y < last.size.height; ++y)
         for (uint32_t x = 0; x < last.size.width; ++x) travelled = std::max(travelled, glm::length(last.motionAt(x, y)));
@@ -145,7 +145,7 @@ void prove(const std::vector<Step>& steps, float guard = 0.1f) {
 }
 
 std::vector<Step> steps(const scene::World& world, int count = 3) {
-    Step step{world, Bench().options().camera, 0.3f};
+    Step step{world, RenderFixture().options().camera, 0.3f};
     std::vector<Step> out;
     for (int i = 0; i < count; ++i, step.time += 1.0f / 30.0f) out.push_back(step);
     return out;
@@ -157,48 +157,48 @@ scene::World worldOf(std::initializer_list<scene::Instance> instances) {
     return world;
 }
 
-TEST_F(Motion, ofNodes) { prove(steps(worldOf({instanceOf(turningCube())}))); }
-TEST_F(Motion, ofSkins) { prove(steps(worldOf({instanceOf(bendingBar())}))); }
-TEST_F(Motion, ofMorphs) { prove(steps(worldOf({instanceOf(wavingPatch())}))); }
+TEST_F(Motion, nodeAnimation) { check(steps(worldOf({instanceOf(turningCube())}))); }
+TEST_F(Motion, skinning) { check(steps(worldOf({instanceOf(bendingBar())}))); }
+TEST_F(Motion, morphing) { check(steps(worldOf({instanceOf(wavingPatch())}))); }
 
-TEST_F(Motion, ofTheCamera) {
+TEST_F(Motion, cameraMotion) {
     std::vector<Step> all = steps(worldOf({instanceOf(floorPlate(), {0, -0.6f, 0})}));
     for (size_t i = 0; i < all.size(); ++i) {
         all[i].camera.eye += glm::vec3(0.05f, 0.02f, -0.08f) * float(i);
         all[i].camera.target += glm::vec3(-0.03f, 0.01f, 0.0f) * float(i);
         all[i].camera.fovY *= 1.0f + 0.02f * float(i);
     }
-    prove(all);
+    check(all);
 }
 
-TEST_F(Motion, ofEverythingAtOnce) {
+TEST_F(Motion, allKindsTogether) {
     std::vector<Step> all = steps(worldOf({instanceOf(turningCube(), {-0.9f, 0.2f, 0.3f}), instanceOf(bendingBar(), {0.9f, 0, -0.5f}),
                                            instanceOf(wavingPatch(), {0, 0.3f, -1.5f}), instanceOf(floorPlate(), {0, -0.8f, 0})}), 5);
     for (size_t i = 0; i < all.size(); ++i) {
         all[i].camera.eye += glm::vec3(0.04f, 0.03f, -0.05f) * float(i);
-        all[i].world.instances()[1].placement[3].x -= 0.05f * float(i);  // what a game does to it
+        all[i].world.instances()[1].placement[3].x -= 0.05f * float(i);  // moved by the game
     }
-    prove(all, 0.0f);
-    prove(all, 0.25f);
+    check(all, 0.0f);
+    check(all, 0.25f);
 }
 
-// An instance that joins makes the posed buffers grow and must not cost the others their past.
-TEST_F(Motion, survivesGrowth) {
-    Bench bench;
+// New instances grow the posed buffers; the others must keep their previous positions.
+TEST_F(Motion, growingBuffersKeepPreviousPositions) {
+    RenderFixture fixture;
     scene::World world = worldOf({instanceOf(bendingBar())});
-    render::FrameOptions options = bench.options();
+    render::FrameOptions options = fixture.options();
     options.time = 0.3f;
-    bench.render(world, options);
+    fixture.render(world, options);
     options.time += 1.0f / 30.0f;
     scene::World more = world;
     for (int i = 0; i < 40; ++i) more.add(instanceOf(wavingPatch(), {0, 0, -50.0f}));
     Picture alone, crowded;
     {
-        Bench other;
+        RenderFixture other;
         other.render(world, [&] { auto o = other.options(); o.time = 0.3f; return o; }());
         alone = other.render(world, [&] { auto o = other.options(); o.time = options.time; return o; }());
     }
-    crowded = bench.render(more, options);
+    crowded = fixture.render(more, options);
     size_t compared = 0;
     for (uint32_t y = 0; y < alone.size.height; ++y)
         for (uint32_t x = 0; x < alone.size.width; ++x) {
@@ -214,17 +214,17 @@ bool allZero(const Picture& picture) {
 }
 
 TEST_F(Motion, isExactlyZeroAtRest) {
-    Bench bench;
+    RenderFixture fixture;
     const scene::World world = worldOf({instanceOf(turningCube()), instanceOf(bendingBar(), {1, 0, 0}), instanceOf(floorPlate(), {0, -0.8f, 0})});
-    render::FrameOptions options = bench.options();
+    render::FrameOptions options = fixture.options();
     options.time = 0.4f;
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(allZero(bench.render(world, options))) << "frame " << i;
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(allZero(fixture.render(world, options))) << "frame " << i;
     options.time = 0.5f;
-    EXPECT_FALSE(allZero(bench.render(world, options)));
+    EXPECT_FALSE(allZero(fixture.render(world, options)));
     options.time = 0.8f;
     options.camera.eye.x += 1.0f;
     options.cut = true;
-    EXPECT_TRUE(allZero(bench.render(world, options))) << "a cut";
+    EXPECT_TRUE(allZero(fixture.render(world, options))) << "camera cut";
 }
 
 }  // namespace

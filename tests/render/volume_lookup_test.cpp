@@ -1,4 +1,4 @@
-// Either structure of the volume gives the same answer wherever it is asked, through the one function that shaders have.
+// The shader lookup function gives the same result for both structures of the volume, at every cell.
 #include <cstring>
 #include <random>
 
@@ -7,7 +7,7 @@
 #include "gpu/compiler/compile.h"
 #include "gpu/test_device.h"
 #include "gpu/test_shaders.h"
-#include "graph/graph.h"
+#include "graph/executor.h"
 #include "shared/volume.h"
 #include "voxel/shapes.h"
 #include "voxel/sparse.h"
@@ -42,7 +42,7 @@ void main() {
 class VolumeLookupTest : public GpuTest {
 protected:
     std::vector<uint32_t> ask(bool grid, const shared::Volume& block, std::span<const uint32_t> words, const std::vector<glm::vec4>& places) {
-        TestShaders files;  // beside the project's own, which are included by their full names
+        TestShaders files;  // in addition to the project's shaders
         std::string text = kLookups;
         if (grid) text.insert(text.find("#define"), "#define VOLUME_NANOVDB\n");
         const std::filesystem::path root = std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders";
@@ -59,6 +59,7 @@ protected:
         gpu::Program program;
         EXPECT_EQ(gpu::Program::compute(device(), shaders, "lookup.comp", {}, program), gpu::Status::ok);
         graph::Graph graph(device());
+        graph::Executor executor(device());
         device().nextFrame();
         graph.begin();
         gpu::Buffer back;
@@ -72,7 +73,7 @@ protected:
                 const VkBufferCopy copy{c.buffer(answers).offset, 0, bytes};
                 c.device.vk().CmdCopyBuffer(c.cmd, c.buffer(answers).buffer, to, 1, &copy);
             });
-        EXPECT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
+        EXPECT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(executor.execute(graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
         std::vector<uint32_t> result(places.size());
         std::memcpy(result.data(), back.mapped(), bytes);
         EXPECT_NE(program.pipeline(), VK_NULL_HANDLE);
@@ -80,7 +81,7 @@ protected:
         return result;
     }
 
-    // The world's cells in a window of 64 around `origin`, by both structures and by the set itself.
+    // Compares the cells of a window of 64 around `origin` in both structures with the set.
     void expectSame(const voxel::BrickSet& cells, const glm::ivec3& origin) {
         voxel::Sparse sparse;
         sparse.add(cells);
@@ -93,7 +94,7 @@ protected:
         shared::Volume gridBlock = block;
         gridBlock.shift = {uint32_t(origin.x), uint32_t(origin.y), uint32_t(origin.z), 0};
 
-        std::vector<glm::vec4> places;  // every cell of the window, then random places in and around it
+        std::vector<glm::vec4> places;  // every cell of the window, then random cells in and around it
         for (int i = 0; i < 64 * 64 * 64; ++i) places.emplace_back(float(i / 4096) + 0.5f, float(i / 64 % 64) + 0.5f, float(i % 64) + 0.5f, 0.0f);
         std::mt19937 random(5);
         std::uniform_real_distribution<float> anywhere(0.0f, 63.99f), far(-5000.0f, 5000.0f);
@@ -112,7 +113,7 @@ protected:
             }
             set += expected;
         }
-        fmt::print("{} of {} places set\n", set, places.size());
+        fmt::print("{} of {} cells set\n", set, places.size());
     }
 };
 

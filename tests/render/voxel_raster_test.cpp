@@ -1,5 +1,5 @@
-// The GPU's voxels against OpenVDB's, cell by cell. The GPU computes in single precision and with a slack that covers it: no cell may
-// be missing, and few may be too many.
+// GPU voxelization against OpenVDB, cell by cell. The GPU works in single precision with a tolerance: no cell may be missing, and
+// few may be extra.
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "gpu/test_device.h"
+#include "graph/executor.h"
 #include "models.h"
 #include "render/renderer.h"
 #include "voxel/shapes.h"
@@ -22,9 +23,11 @@ protected:
         m_shaders.add(ao::shaders());
         m_renderer = render::Renderer::create(device(), m_shaders);
         m_graph = std::make_unique<graph::Graph>(device());
+        m_executor = std::make_unique<graph::Executor>(device());
     }
     void TearDown() override {
         m_graph.reset();
+        m_executor.reset();
         m_renderer.reset();
         GpuTest::TearDown();
     }
@@ -54,7 +57,7 @@ protected:
                 const VkBufferCopy copy{source.offset, 0, source.bytes};
                 c.device.vk().CmdCopyBuffer(c.cmd, source.buffer, handle, 1, &copy);
             });
-        EXPECT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_graph->execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
+        EXPECT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor->execute(*m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
         std::memcpy(result.data(), back.mapped(), result.size() * 4);
         return result;
     }
@@ -71,13 +74,14 @@ protected:
             d.missing += size_t(std::popcount(expected[i] & ~got[i]));
             d.extra += size_t(std::popcount(got[i] & ~expected[i]));
         }
-        fmt::print("{} cells a side{}: {} set, {} missing, {} too many\n", how.cells, how.shell == voxel::Shell::thin ? ", thin" : "", d.set, d.missing, d.extra);
+        fmt::print("{} cells a side{}: {} set, {} missing, {} extra\n", how.cells, how.shell == voxel::Shell::thin ? ", thin" : "", d.set, d.missing, d.extra);
         return d;
     }
 
     gpu::ShaderLibrary m_shaders;
     std::unique_ptr<render::Renderer> m_renderer;
     std::unique_ptr<graph::Graph> m_graph;
+    std::unique_ptr<graph::Executor> m_executor;
 };
 
 scene::World worldOf(std::shared_ptr<const scene::Model> model, const glm::vec3& at = glm::vec3(0.0f)) {
@@ -99,7 +103,7 @@ TEST_F(VoxelRasterTest, randomTrianglesSmallAndLarge) {
         }
 }
 
-TEST_F(VoxelRasterTest, whatMovesIsReadAsItIsPosed) {
+TEST_F(VoxelRasterTest, animatedMeshesUseTheirPose) {
     scene::World world = worldOf(floorPlate());
     world.add(instanceOf(turningCube(), {0.5f, 0.4f, 0.0f}));
     world.add(instanceOf(bendingBar(), {-0.7f, 0.2f, 0.3f}));
@@ -107,14 +111,14 @@ TEST_F(VoxelRasterTest, whatMovesIsReadAsItIsPosed) {
     for (const float time : {0.0f, 0.37f, 0.9f}) {
         const Difference d = compare(world, time, {.cells = 256, .cellSize = 0.02f});
         EXPECT_GT(d.set, 10000u);
-        // Skins are sums in another order on either side: a vertex may be a few millionths of a metre elsewhere.
+        // CPU and GPU sum skin weights in another order: vertices differ by a few micrometres.
         EXPECT_LE(d.missing, d.set / 10000);
         EXPECT_LT(d.extra, d.set / 200);
     }
     EXPECT_NE(bits(world, 0.0f, {.voxelizer = render::Voxelizer::gpu}), bits(world, 0.37f, {.voxelizer = render::Voxelizer::gpu}));
 }
 
-TEST_F(VoxelRasterTest, aWindowInAWorldThatIsLarger) {
+TEST_F(VoxelRasterTest, windowInALargerWorld) {
     const scene::World world = worldOf(modelOf(randomSoup(3000, 12.0f, 4.0f, 9)));
     for (const float x : {-11.0f, 0.0f, 7.3f}) {
         const Difference d = compare(world, 0.0f, {.cells = 64, .cellSize = 0.1f}, {x, 1.0f, -0.5f * x});
@@ -124,7 +128,7 @@ TEST_F(VoxelRasterTest, aWindowInAWorldThatIsLarger) {
     }
 }
 
-TEST_F(VoxelRasterTest, brokenTrianglesDoNoHarm) {
+TEST_F(VoxelRasterTest, degenerateTrianglesAreHarmless) {
     Soup soup = randomSoup(50, 2.0f, 1.0f, 3);
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     soup.add({nan, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -138,7 +142,7 @@ TEST_F(VoxelRasterTest, brokenTrianglesDoNoHarm) {
 
 TEST_F(VoxelRasterTest, sponza) {
     const std::filesystem::path file = contentFolder() / "sponza/512/Sponza.gltf";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
     const scene::World world = worldOf(scene::loadGltf(file, {.loadImages = false}));
     for (const voxel::Shell shell : {voxel::Shell::conservative, voxel::Shell::thin}) {
         const Difference d = compare(world, 0.0f, {.shell = shell});

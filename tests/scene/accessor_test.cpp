@@ -1,4 +1,4 @@
-// Accessors of every kind, seen through the meshes they become.
+// Accessors of every kind, tested through the loaded meshes.
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Accessor, NormalizedIntegers) {
     const int uv = b.accessor(std::vector<uint16_t>{65535, 0, 13107, 0, 0, 0}, "VEC2", 5123, 2, true);
     b.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     b.mesh({{"POSITION", positions}, {"COLOR_0", colors}, {"TEXCOORD_0", uv}});
-    // Tightly packed shorts and bytes are not aligned to four, which vertex attributes ought to be but need not be to be read.
+    // Tightly packed shorts and bytes are not aligned to 4 bytes as glTF requires; the loader reads them all the same.
     const auto model = b.load();
     const Primitive& p = only(model);
     EXPECT_EQ(p.positions[0], glm::vec3(-1, 0, 1));
@@ -106,7 +106,7 @@ TEST(Accessor, ReachingPastTheViewNamesTheAccessor) {
     EXPECT_TRUE(contains(b.error(), "/accessors/0/count")) << b.error();
 }
 
-TEST(Accessor, ZerosDoNotAskForGigabytes) {
+TEST(Accessor, HugeCountsWithoutDataAreRefused) {
     GltfBuilder b;
     b.mesh({{"POSITION", b.accessor({{"componentType", 5126}, {"type", "VEC3"}, {"count", 2000000000}})}});
     EXPECT_TRUE(contains(b.error(), "/accessors/0/count: 2000000000 elements without a bufferView")) << b.error();
@@ -118,7 +118,7 @@ TEST(Accessor, NotANumberIsNamed) {
     EXPECT_TRUE(contains(b.error(), "/accessors/0: value 4 is not a finite number")) << b.error();
 }
 
-TEST(Accessor, BudgetIsKept) {
+TEST(Accessor, MemoryLimitIsKept) {
     GltfBuilder b;
     b.mesh({{"POSITION", b.vec3(std::vector<float>(30000, 0.5f))}});
     LoadOptions small;

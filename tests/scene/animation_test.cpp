@@ -1,4 +1,4 @@
-// Interpolation, skinning and morphing against values worked out by hand.
+// Interpolation, skinning and morphing against values computed by hand.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -65,8 +65,8 @@ TEST(Animation, CubicSplineByHand) {
     EXPECT_NEAR((x(0.001f) - x(0.0f)) / 0.001f, 2.0f, 0.02f);
 }
 
-TEST(Animation, RotationTakesTheShortWay) {
-    // From none to -90 degrees about z, written with the opposite sign: the way is 90 degrees, not 270.
+TEST(Animation, RotationTakesTheShorterWay) {
+    // From 0 to -90 degrees about z, as a quaternion of opposite sign: the shorter way is 90 degrees, not 270.
     const auto m = animated("rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0, kHalf, -kHalf});
     const glm::mat4 w = evaluate(*m, 0, 0.5f, false).world[0];
     near(glm::vec3(w[0]), {kHalf, -kHalf, 0});
@@ -94,7 +94,7 @@ TEST(Animation, TimesMustRise) {
                              {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
     EXPECT_TRUE(contains(b.error(), "/animations/0/samplers/0/input: key 2 at 1 s")) << b.error();
     b.json["animations"][0]["channels"][0]["target"]["node"] = 3;
-    EXPECT_TRUE(contains(b.error(), "/animations/0/channels/0/target/node: names node 3")) << b.error();
+    EXPECT_TRUE(contains(b.error(), "/animations/0/channels/0/target/node: node 3 does not exist")) << b.error();
 }
 
 // Two joints along y, the upper one turned by 90 degrees about z.
@@ -105,7 +105,7 @@ GltfBuilder arm() {
     const int weights = b.vec4({1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 2, 0, 0, 0});
     b.mesh({{"POSITION", positions}, {"NORMAL", b.vec3({0, 0, 1, 0, 1, 0, 1, 0, 0})}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}});
     b.json["nodes"][0]["skin"] = 0;
-    b.json["nodes"][0]["translation"] = {100, 0, 0};  // does not count for skinned geometry
+    b.json["nodes"][0]["translation"] = {100, 0, 0};  // ignored for skinned geometry
     b.json["nodes"].push_back({{"children", {2}}});
     b.json["nodes"].push_back({{"translation", {0, 1, 0}}, {"rotation", {0, 0, kHalf, kHalf}}});
     b.json["scenes"][0]["nodes"] = {0, 1};
@@ -123,7 +123,7 @@ TEST(Skinning, BlendsJointMatrices) {
     near(positions[0], {0, 0, 0});
     // Half of (0,2,0) and half of (0,2,0) turned about (0,1,0): (-1,1,0).
     near(positions[1], {-0.5f, 1.5f, 0});
-    // Joint 1 alone, its weight of 2 made 1: (1,1,0) about the joint turns to (-1,1,0).
+    // Joint 1 alone, its weight of 2 normalized to 1: (1,1,0) about the joint turns to (-1,1,0).
     near(positions[2], {-1, 2, 0});
     near(normals[0], {0, 0, 1});
     near(normals[2], {0, 1, 0});
@@ -147,7 +147,7 @@ TEST(Skinning, JointBeyondTheSkinIsNamed) {
     b.json["skins"][0]["joints"] = {1};
     EXPECT_TRUE(contains(b.error(), "/meshes/0/primitives/0/attributes/JOINTS_0: vertex 1 follows joint 1")) << b.error();
     b.json["skins"][0]["joints"] = {1, 5};
-    EXPECT_TRUE(contains(b.error(), "/skins/0/joints/1: names node 5")) << b.error();
+    EXPECT_TRUE(contains(b.error(), "/skins/0/joints/1: node 5 does not exist")) << b.error();
 }
 
 TEST(Morph, WeightsMoveVertices) {

@@ -1,4 +1,4 @@
-// Camera matrices as numbers, lenses, and flythrough paths.
+// Camera matrices, glTF cameras, and flythrough paths.
 #include <cmath>
 #include <fstream>
 
@@ -119,7 +119,7 @@ TEST_F(CameraFile, Camera) {
     EXPECT_FLOAT_EQ(camera.fovY, 1.5707963f);
     EXPECT_EQ(camera.nearPlane, 0.5f);
     EXPECT_TRUE(contains(errorOf(R"({"eye":[1,2,3],"target":[0,0,0],"fov":90})", loadCamera), "unknown field \"fov\""));
-    EXPECT_TRUE(contains(errorOf(R"({"eye":[1,2],"target":[0,0,0]})", loadCamera), "/eye: must hold 3 numbers"));
+    EXPECT_TRUE(contains(errorOf(R"({"eye":[1,2],"target":[0,0,0]})", loadCamera), "/eye: must have 3 numbers"));
     EXPECT_TRUE(contains(errorOf("{", loadCamera), m_file.string()));
 }
 
@@ -135,12 +135,12 @@ TEST_F(CameraFile, PathPassesThroughItsKeys) {
     const CameraPath path = loadCameraPath(m_file);
     for (const auto& key : path.keys) {
         EXPECT_NEAR(glm::length(path.at(key.time).eye - key.eye), 0, 1e-4);
-        EXPECT_NEAR(glm::length(path.at(key.time + 8).target - key.target), 0, 1e-4) << "one turn later";
+        EXPECT_NEAR(glm::length(path.at(key.time + 8).target - key.target), 0, 1e-4) << "one loop later";
         EXPECT_NEAR(path.at(key.time).fovY, key.fovY, 1e-4);
     }
 }
 
-TEST_F(CameraFile, PathHasNoJumpsInPlaceOrVelocity) {
+TEST_F(CameraFile, PathIsContinuousInPositionAndVelocity) {
     write(kPath);
     for (const bool loop : {true, false}) {
         CameraPath path = loadCameraPath(m_file);
@@ -159,12 +159,12 @@ TEST_F(CameraFile, PathHasNoJumpsInPlaceOrVelocity) {
     }
 }
 
-TEST_F(CameraFile, RestingCameraRests) {
+TEST_F(CameraFile, RestingCameraStays) {
     write(R"({"loop":false,"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,-1]},{"time":1,"eye":[3,0,0],"target":[3,0,-1]},
               {"time":2,"eye":[3,0,0],"target":[3,0,-1]},{"time":3,"eye":[6,0,0],"target":[6,0,-1]}]})");
     const CameraPath path = loadCameraPath(m_file);
     for (float t = 1; t <= 2; t += 0.05f) EXPECT_NEAR(path.at(t).eye.x, 3.0f, 0.01f) << t;
-    for (float t = 0; t < 3; t += 0.05f) EXPECT_LE(path.at(t).eye.x, path.at(t + 0.05f).eye.x + 1e-4f) << "no way back at " << t;
+    for (float t = 0; t < 3; t += 0.05f) EXPECT_LE(path.at(t).eye.x, path.at(t + 0.05f).eye.x + 1e-4f) << "moves backwards at " << t;
 }
 
 TEST_F(CameraFile, SaveAndLoadAgree) {
@@ -194,7 +194,7 @@ TEST_F(CameraFile, SaveAndLoadAgree) {
 }
 
 TEST_F(CameraFile, PathErrorsNameTheField) {
-    EXPECT_TRUE(contains(pathError(R"({"keys":[]})"), "/keys: must hold at least one key"));
+    EXPECT_TRUE(contains(pathError(R"({"keys":[]})"), "/keys: must have at least one key"));
     EXPECT_TRUE(contains(pathError(R"({"speed":1,"keys":[]})"), "unknown field \"speed\""));
     EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1],"roll":3}]})"), "/keys/0: unknown field \"roll\""));
     EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":1,"eye":[0,0,0],"target":[0,0,1]},{"time":1,"eye":[1,0,0],"target":[0,0,1]}]})"),

@@ -1,5 +1,5 @@
-// The content folder: models others made, right and wrong ones. Every right one loads unless it requires an extension we
-// lack; every wrong one ends in a model or in one line, quickly and without much memory.
+// The content folder: valid and invalid third-party models. Every valid model loads unless it requires an unsupported
+// extension; every invalid one gives a model or a one-line error, quickly and with little memory.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -37,7 +37,7 @@ std::vector<fs::path> models(const fs::path& folder) {
 #define NEEDS(folder) \
     if (!fs::exists(folder)) GTEST_SKIP() << folder << " is missing; set OBSCURA_CONTENT to the content folder"
 
-// What must hold for any model that came out of the loader.
+// Invariants of every loaded model.
 void expectSound(const Model& model) {
     for (const Mesh& mesh : model.meshes)
         for (const Primitive& p : mesh.primitives) {
@@ -80,7 +80,7 @@ std::string load(const fs::path& file) {
 TEST(Content, EveryConformanceModelLoads) {
     const fs::path folder = content() / "conformance";
     NEEDS(folder);
-    // The only reasons for which a model there may be refused, and how many are.
+    // The accepted reasons to refuse a model, and their number.
     struct Reason {
         const char* text;
         int most;
@@ -91,8 +91,8 @@ TEST(Content, EveryConformanceModelLoads) {
         {"needs the extension KHR_materials_transmission", 1},
         {"needs the extension KHR_meshopt_compression", 1},     // newer than the distribution's meshoptimizer
         {"needs the extension EXT_texture_webp", 1},            // stb reads no WebP
-        {"needs the extension FAKE_materials_quantumRendering", 1},  // there to be refused
-        {"/asset/minVersion: needs glTF 2.1", 1},               // there to be refused
+        {"needs the extension FAKE_materials_quantumRendering", 1},  // made to be refused
+        {"/asset/minVersion: needs glTF 2.1", 1},               // made to be refused
     };
     std::map<std::string, int> refused;
     int loaded = 0;
@@ -115,18 +115,18 @@ TEST(Content, EveryConformanceModelLoads) {
     EXPECT_GE(loaded, 221);
 }
 
-TEST(Content, EveryInvalidModelEndsInAModelOrALine) {
+TEST(Content, EveryInvalidModelGivesAModelOrOneLine) {
     const fs::path folder = content() / "invalid";
     NEEDS(folder);
-    // The validator's complaints that leave nothing wrong to draw: a model with only these may load.
+    // Validator messages that do not affect drawing: a model with only these may load.
     const std::set<std::string> harmless = {
-        "EMPTY_ENTITY",                                     // [] where nothing should stand
+        "EMPTY_ENTITY",                                     // [] in place of an omitted property
         "ACCESSOR_MIN_MISMATCH", "ACCESSOR_MAX_MISMATCH",   // bounds are not used, positions are measured
         "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND",
         "ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS", "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
         "ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS",  // one spline key holds its value
         "ACCESSOR_INVALID_FLOAT",                             // where no mesh uses the accessor
-        "BUFFER_DATA_URI_MIME_TYPE_INVALID", "IMAGE_MIME_TYPE_INVALID", "INVALID_URI",  // the data says what it is
+        "BUFFER_DATA_URI_MIME_TYPE_INVALID", "IMAGE_MIME_TYPE_INVALID", "INVALID_URI",  // the type is detected from the data
         "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE", "BUFFER_VIEW_INVALID_BYTE_STRIDE",           // of single elements and indices
         "ONE_OF_MISMATCH",                                    // a camera with both lenses, one of them named
         "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT",    // an application's own attribute
@@ -134,7 +134,7 @@ TEST(Content, EveryInvalidModelEndsInAModelOrALine) {
         "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION",                                      // repaired
         "NODE_MATRIX_NON_TRS", "NODE_SKIN_WITH_NON_SKINNED_MESH",                                           // drawn as they are
         "MESH_PRIMITIVE_NO_TANGENT_SPACE", "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",                              // filled in
-        // Within extensions that are ignored.
+        // In ignored extensions.
         "PATTERN_MISMATCH", "UNEXPECTED_EXTENSION_OBJECT", "UNDEFINED_PROPERTY", "UNSATISFIED_DEPENDENCY", "UNRESOLVED_REFERENCE",
         "VALUE_NOT_IN_RANGE", "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", "TYPE_MISMATCH", "NON_REQUIRED_EXTENSION"};
     int faulty = 0, faultyRefused = 0, fine = 0, fineRefused = 0, other = 0, otherRefused = 0;
@@ -177,7 +177,7 @@ TEST(Content, EveryInvalidModelEndsInAModelOrALine) {
 #endif
 }
 
-// The compressed variant of a model is the model, up to `tolerance` metres of rounding.
+// The compressed variant equals the model within `tolerance` metres.
 void expectSame(const fs::path& plain, const fs::path& packed, float tolerance) {
     SCOPED_TRACE(packed.string());
     const auto a = loadGltf(plain), b = loadGltf(packed);
@@ -190,7 +190,7 @@ void expectSame(const fs::path& plain, const fs::path& packed, float tolerance) 
         EXPECT_LT(glm::length(boxA.min - boxB.min), tolerance);
         EXPECT_LT(glm::length(boxA.max - boxB.max), tolerance);
     }
-    // The order of vertices and triangles is the compressor's own, sums over the surface are not.
+    // The compressor reorders vertices and triangles, so compare sums over the surface.
     const auto sums = [](const World& world) {
         glm::dvec4 sum(0.0);
         for (const PosedPrimitive& entry : pose(world, 0.3f))
@@ -206,7 +206,7 @@ void expectSame(const fs::path& plain, const fs::path& packed, float tolerance) 
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(sumA[i], sumB[i], double(tolerance) * sumA.w + 1e-6);
 }
 
-TEST(Content, CompressedModelsAreTheSameModels) {
+TEST(Content, CompressedModelsEqualTheOriginals) {
     const fs::path folder = content() / "conformance";
     NEEDS(folder);
     const fs::path khronos = folder / "khronos" / "Models";
@@ -219,7 +219,7 @@ TEST(Content, CompressedModelsAreTheSameModels) {
     expectSame(khronos / "Box" / "glTF" / "Box.gltf", other / "BoxMeshopt.glb", 0.01f);
 }
 
-TEST(Content, SponzaIsWhole) {
+TEST(Content, SponzaIsComplete) {
     const fs::path file = content() / "sponza" / "512" / "Sponza.gltf";
     NEEDS(file);
     const auto model = loadGltf(file);

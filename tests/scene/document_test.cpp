@@ -1,4 +1,4 @@
-// Containers, structure and extensions: what is refused, and with which line.
+// glTF containers, structure and extensions: refused files and their error lines.
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
@@ -23,11 +23,11 @@ TEST(Document, BinaryContainer) {
     EXPECT_EQ(binary->hash, GltfBuilder::loadText(b.binary())->hash);
     std::string cut = b.binary();
     cut.resize(cut.size() - 5);
-    EXPECT_TRUE(contains(GltfBuilder::errorOf(cut), "built.gltf: says it has")) << GltfBuilder::errorOf(cut);
+    EXPECT_TRUE(contains(GltfBuilder::errorOf(cut), "built.gltf: is truncated")) << GltfBuilder::errorOf(cut);
     for (size_t size = 0; size < b.binary().size(); size += 3) EXPECT_NE(GltfBuilder::errorOf(b.binary().substr(0, size)), "");
 }
 
-TEST(Document, EveryCutOfATextIsOneLine) {
+TEST(Document, EveryTruncationIsOneErrorLine) {
     GltfBuilder b;
     b.triangle();
     const std::string whole = b.text();
@@ -43,7 +43,7 @@ TEST(Document, DeepNestingIsRefused) {
     EXPECT_TRUE(contains(GltfBuilder::errorOf(deep), "nested deeper")) << GltfBuilder::errorOf(deep);
 }
 
-TEST(Document, NamesCannotBreakTheLine) {
+TEST(Document, NewlinesInNamesAreEscaped) {
     GltfBuilder b;
     b.json["extensionsRequired"] = {"EVIL\nextension"};
     EXPECT_EQ(b.error(), "built.gltf: /extensionsRequired/0: needs the extension EVIL?extension, which is not supported; export without it");
@@ -73,8 +73,8 @@ TEST(Document, NodeLoopsAndSharedChildren) {
     EXPECT_TRUE(contains(withNodes(Json::array({{{"children", {0}}}}), Json::array()), "/nodes/0: is its own ancestor"));
     EXPECT_TRUE(contains(withNodes(Json::array({leaf, {{"children", {2}}}, {{"children", {1}}}})), "is its own ancestor"));
     EXPECT_TRUE(contains(withNodes(Json::array({{{"children", {2}}}, {{"children", {2}}}, leaf})), "/nodes/1/children/0: node 2 already is a child"));
-    EXPECT_TRUE(contains(withNodes(Json::array({{{"children", {1}}}, leaf}), Json::array({1})), "/scenes/0/nodes/0: node 1 is no root"));
-    EXPECT_TRUE(contains(withNodes(Json::array({{{"mesh", 0}}})), "/nodes/0/mesh: names mesh 0"));
+    EXPECT_TRUE(contains(withNodes(Json::array({{{"children", {1}}}, leaf}), Json::array({1})), "/scenes/0/nodes/0: node 1 is not a root"));
+    EXPECT_TRUE(contains(withNodes(Json::array({{{"mesh", 0}}})), "/nodes/0/mesh: mesh 0 does not exist"));
 }
 
 TEST(Document, LongChainsDoNotExhaustTheStack) {
@@ -92,9 +92,9 @@ TEST(Document, LongChainsDoNotExhaustTheStack) {
 TEST(Document, WrongTypesAreNamed) {
     GltfBuilder b;
     b.triangle();
-    const Json good = b.json;
+    const Json valid = b.json;
     const auto errorWith = [&](const char* pointer, const Json& value) {
-        b.json = good;
+        b.json = valid;
         b.json[Json::json_pointer(pointer)] = value;
         const std::string error = b.error();
         EXPECT_TRUE(contains(error, pointer)) << pointer << " -> " << error;
@@ -124,13 +124,13 @@ TEST(Document, ScenesAreChosen) {
     b.json["scene"] = 1;
     EXPECT_EQ(b.load()->roots, std::vector<int>{1});
     second.scene = 2;
-    EXPECT_TRUE(contains(b.error(second), "/scenes: scene 2 was asked for")) << b.error(second);
+    EXPECT_TRUE(contains(b.error(second), "/scenes: scene 2 does not exist")) << b.error(second);
     b.json.erase("scenes");
     b.json.erase("scene");
-    EXPECT_EQ(b.load()->roots, (std::vector<int>{0, 1})) << "without scenes all roots are shown";
+    EXPECT_EQ(b.load()->roots, (std::vector<int>{0, 1})) << "without scenes all root nodes are loaded";
 }
 
-TEST(Document, MeshoptLiesAboutSizesAreRefused) {
+TEST(Document, WrongMeshoptSizesAreRefused) {
     GltfBuilder b;
     b.triangle();
     b.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {

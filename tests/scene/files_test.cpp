@@ -1,4 +1,4 @@
-// URIs: what is read, and that nothing outside the model's folder is.
+// URIs: files inside the model's folder are read, all others are refused.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST_F(Files, NothingOutsideIsRead) {
     EXPECT_TRUE(contains(errorOf("https://example.com/a.bin"), "is not fetched"));
     EXPECT_NE(errorOf(""), "");
     EXPECT_NE(errorOf("%00"), "");
-    EXPECT_NE(errorOf("sub"), "") << "a folder is no file";
+    EXPECT_NE(errorOf("sub"), "") << "a folder is not a file";
 }
 
 TEST_F(Files, LinksMayNotLeave) {
@@ -72,7 +72,7 @@ TEST_F(Files, SizesAreChecked) {
     EXPECT_TRUE(contains(errorOf("inside.bin", 37), "/buffers/0: byteLength is 37"));
     EXPECT_TRUE(contains(errorOf("missing.bin"), "/buffers/0/uri: the file \"missing.bin\" cannot be found"));
     write("model/long.bin", std::string(1000, 'x'));
-    EXPECT_EQ(errorOf("long.bin", 36), "") << "a longer file is fine";
+    EXPECT_EQ(errorOf("long.bin", 36), "") << "a longer file is valid";
 }
 
 TEST_F(Files, MissingImageIsAnError) {
@@ -80,7 +80,7 @@ TEST_F(Files, MissingImageIsAnError) {
     EXPECT_TRUE(contains(errorOf("inside.bin"), "/images/0/uri: the file \"no.png\"")) << errorOf("inside.bin");
 }
 
-TEST_F(Files, NoModelIsOneLine) {
+TEST_F(Files, MissingModelIsOneErrorLine) {
     for (const char* name : {"none.gltf", "model", "nowhere/none.gltf"}) {
         try {
             loadGltf(m_root / name);

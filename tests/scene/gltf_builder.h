@@ -1,4 +1,4 @@
-// Makes small glTF files for tests: JSON one may still change, and one buffer that accessors append to.
+// Builds small glTF files for tests: editable JSON, and one buffer that accessors append to.
 #pragma once
 
 #include <cstring>
@@ -44,7 +44,7 @@ public:
     int vec4(const std::vector<float>& values) { return accessor(values, "VEC4", 5126, 4); }
     int mat4(const std::vector<float>& values) { return accessor(values, "MAT4", 5126, 16); }
 
-    // One mesh whose first primitive has these attributes, and a node and scene that show it.
+    // One mesh whose first primitive has these attributes, with a node and a scene.
     Json& mesh(const Json& attributes) {
         json["meshes"].push_back({{"primitives", Json::array({{{"attributes", attributes}}})}});
         json["nodes"].push_back({{"mesh", json["meshes"].size() - 1}});
@@ -76,7 +76,7 @@ public:
     static std::shared_ptr<const Model> loadText(const std::string& text, const LoadOptions& options = {}) {
         return loadGltfMemory({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "built.gltf", options);
     }
-    // The error a load ends in, empty when there is none.
+    // The error of loading, or an empty string.
     static std::string errorOf(const std::string& text, const LoadOptions& options = {}) {
         try {
             loadText(text, options);

@@ -1,5 +1,5 @@
-// libFuzzer on the glTF loader: any bytes end in a model or in one Error, and a model can be posed. Half of the mutations
-// change one JSON value in place of raw bytes, which would seldom get past the JSON parser.
+// libFuzzer on the glTF loader: any bytes give a model or an Error, and a model can be posed. Half of the mutations change a
+// JSON value instead of raw bytes, since most byte mutations fail in the JSON parser.
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -42,7 +42,7 @@ Json anyValue(std::mt19937& random, const Json& old) {
 }
 
 void mutateJson(Json& json, std::mt19937& random) {
-    // Down to a random depth; a leaf is likelier than its parents.
+    // Descends to a random depth; leaves are likelier than their parents.
     Json* at = &json;
     Json* parent = nullptr;
     while (at->is_structured() && !at->empty() && (parent == nullptr || random() % 8 != 0)) {
@@ -73,7 +73,7 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
     const bool binary = size > kHead && std::memcmp(data, "glTF", 4) == 0;
     const size_t start = binary ? kHead : 0;
     const size_t length = binary ? std::min<size_t>(word(data + 12), size - kHead) : size;
-    // Dumping recurses; what the loader refuses as too deep is left to raw mutations.
+    // Dumping is recursive; documents deeper than the loader accepts get byte mutations.
     const auto tooDeep = [](int depth, Json::parse_event_t, Json&) { return depth < 70; };
     if (random() % 2 == 0) {
         Json json = Json::parse(data + start, data + start + length, tooDeep, false);

@@ -1,4 +1,4 @@
-// What the loader makes of topology, missing attributes, materials and textures.
+// Loading of topologies, missing attributes, materials and textures.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(Mesh, MissingNormalsAreFlat) {
     p["indices"] = b.accessor(std::vector<uint16_t>{0, 1, 2, 0, 3, 1}, "SCALAR", 5123, 1);
     const auto model = b.load();
     const Primitive& out = only(model);
-    ASSERT_EQ(out.positions.size(), 6u) << "flat faces share no vertices";
+    ASSERT_EQ(out.positions.size(), 6u) << "flat-shaded faces do not share vertices";
     EXPECT_EQ(out.normals[0], glm::vec3(0, 0, 1));
     EXPECT_EQ(out.normals[5], glm::vec3(0, 1, 0));
     EXPECT_EQ(out.uv0.size(), 6u);
@@ -60,7 +60,7 @@ TEST(Mesh, FlatNormalsFollowMorphs) {
 
 TEST(Mesh, TangentsFollowTheTexture) {
     GltfBuilder b;
-    // u along +y, v along -x: cross(n, t) = (-1,0,0) is along v, so w is -1 for green to point against v.
+    // u along +y, v along -x: cross(n, t) = (-1,0,0) is along v, so w is -1, since green points against v.
     b.mesh({{"POSITION", b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}, {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})},
             {"TEXCOORD_0", b.accessor(std::vector<float>{0, 1, 0, 0, 1, 1}, "VEC2", 5126, 2)}});
     const auto model = b.load();
@@ -70,7 +70,7 @@ TEST(Mesh, TangentsFollowTheTexture) {
     }
 }
 
-TEST(Mesh, TangentsAreSaneWithoutTexture) {
+TEST(Mesh, TangentsAreValidWithoutTexture) {
     GltfBuilder b;
     b.mesh({{"POSITION", b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}, {"NORMAL", b.vec3({0, 0, -1, 0, 1, 0, 0, 0, 0})}});
     const auto model = b.load();
@@ -80,7 +80,7 @@ TEST(Mesh, TangentsAreSaneWithoutTexture) {
         EXPECT_NEAR(glm::length(t), 1.0f, 1e-5f);
         EXPECT_NEAR(glm::dot(n, t), 0.0f, 1e-5f);
     }
-    EXPECT_EQ(only(model).normals[2], glm::vec3(0, 0, 1)) << "a zero normal comes from the triangles around it";
+    EXPECT_EQ(only(model).normals[2], glm::vec3(0, 0, 1)) << "a zero normal is replaced by that of the adjacent triangles";
 }
 
 TEST(Mesh, IndexOutOfRangeIsNamed) {
@@ -99,7 +99,7 @@ TEST(Mesh, DefaultMaterialIsAppended) {
     EXPECT_EQ(model->materials[1].baseColor, glm::vec4(1));
 }
 
-TEST(Material, EveryFieldArrives) {
+TEST(Material, EveryFieldIsLoaded) {
     GltfBuilder b;
     b.triangle()["material"] = 0;
     b.json["images"] = {{{"uri", kPixel}}};

@@ -1,4 +1,4 @@
-# Runs the fuzzer for SECONDS on CORPUS, seeded with what small models the content folder holds.
+# Runs the fuzzer for SECONDS on CORPUS, seeded with the small models of the content folder.
 set(content $ENV{OBSCURA_CONTENT})
 if(NOT content)
   set(content ${SOURCE}/../shared/content)
@@ -13,7 +13,7 @@ foreach(seed ${seeds})
     math(EXPR number "${number} + 1")
   endif()
 endforeach()
-# The timeout, seconds, finds endless loops: Draco may spend a few seconds on one damaged stream, far more when instrumented on a busy machine.
+# The timeout in seconds finds endless loops. Draco may need seconds for a damaged stream, much longer instrumented on a loaded machine.
 execute_process(
   COMMAND ${FUZZER} -max_total_time=${SECONDS} -timeout=120 -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1
           -artifact_prefix=${CORPUS}/../ ${CORPUS} ${CORPUS}/../seeds

@@ -1,4 +1,4 @@
-// Nodes and instances: matrices, mirroring, subtrees, what moves.
+// Nodes and instances: matrices, mirroring, subtrees, animation.
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
@@ -50,7 +50,7 @@ TEST(World, NegativeScaleIsFlipped) {
     EXPECT_TRUE(pose(world, 0)[0].flipped);
     EXPECT_EQ(pose(world, 0)[0].positions[2], glm::vec3(0, -1, 0));
     world.instances()[0].placement[0][0] = -1.0f;
-    EXPECT_FALSE(pose(world, 0)[0].flipped) << "mirrored twice";
+    EXPECT_FALSE(pose(world, 0)[0].flipped) << "mirrored twice is not mirrored";
 }
 
 TEST(World, InstancesHaveTheirOwnIdsTimesAndPlacements) {
@@ -81,7 +81,7 @@ TEST(World, InstancesHaveTheirOwnIdsTimesAndPlacements) {
     EXPECT_EQ(box.max, glm::vec3(2.5f, 11, 0));
     world.remove(first);
     EXPECT_EQ(world.instances().size(), 1u);
-    EXPECT_GT(world.add({model}), second) << "ids are not used again";
+    EXPECT_GT(world.add({model}), second) << "ids are not reused";
     world.clear();
     EXPECT_TRUE(bounds(world, 0).empty);
 }
@@ -97,7 +97,7 @@ TEST(World, AnimationMovesDescendants) {
     EXPECT_EQ(animatedNodes(*b.load(), -1), (std::vector<bool>{false, false, false}));
 }
 
-TEST(World, PosesAreTheSameEveryTime) {
+TEST(World, PosesAreDeterministic) {
     GltfBuilder b;
     b.triangle();
     b.json["nodes"][0]["rotation"] = {0.1, 0.2, 0.3, 0.9273618495};

@@ -1,7 +1,7 @@
-// What the method's work does and does not depend on, counted: dispatches, workgroups, pipelines, constants, loops in shaders, texels.
-// The times that go with it: obscura-bench --scene atrium --method statistical --set radius=0.05,1,4   and   --preset paper,paper_half
+// Work of the method, counted in dispatches, workgroups, pipelines, constants, shader loops and texels: independent of the radius.
+// For times see obscura-bench --scene atrium --method statistical --set radius=0.05,1,4   and   --preset paper,paper_half
 #include "gpu/vulkan_counter.h"
-#include "statistical/bench.h"
+#include "statistical/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -10,16 +10,16 @@ class StatisticalCost : public StatisticalTest {
 protected:
     struct Work {
         std::vector<Dispatch> dispatches;
-        uint64_t bytes = 0;  // of device memory
+        uint64_t bytes = 0;  // device memory
     };
-    // Of the method's own passes, once its images and buffers are there.
+    // Counts the method's own passes once its resources exist.
     Work workOf(const Room& room, const ao::Values& values) {
         run(room, values);
         m_counter.clear();
         run(room, values);
-        return {m_counter.dispatchesOf("statistical."), m_graph->frameBytes()};
+        return {m_counter.dispatchesOf("statistical."), m_executor->frameBytes()};
     }
-    // Texels that the summed-area tables sum up, over all layers: both halves of a table go once over each.
+    // Texels summed by the summed-area tables, over all layers: both passes of a table read each once.
     static uint64_t texelsSummed(const Work& work) {
         uint64_t sum = 0;
         for (const Dispatch& d : work.dispatches)
@@ -39,8 +39,8 @@ protected:
     VulkanCounter m_counter{m_device};
 };
 
-// Every radius runs the same pipelines in as many workgroups on as much memory. Constants may differ only where the shader has no loop:
-// no number of steps can follow from the radius.
+// Every radius runs the same pipelines with the same workgroups and memory. Constants may differ only for shaders without loops, so the
+// radius cannot change a number of steps.
 TEST_F(StatisticalCost, isTheSameForEveryRadius) {
     const Work middle = workOf(hills(), values({{"radius", 1}}));
     ASSERT_FALSE(middle.dispatches.empty());
@@ -57,15 +57,15 @@ TEST_F(StatisticalCost, isTheSameForEveryRadius) {
             EXPECT_EQ(a.groups, b.groups) << a.pass;
             if (a.constants == b.constants) continue;
             ++differ;
-            // Of texels.comp, the loops over the pixels of a texel: their number is Box::texelSide.
+            // texels.comp loops over the pixels of a texel, Box::texelSide.
             if (a.pass == "statistical.texels") EXPECT_EQ(a.constant(12), b.constant(12));
-            else EXPECT_EQ(a.loops, 0u) << a.pass << " has loops, and other constants at another radius";
+            else EXPECT_EQ(a.loops, 0u) << a.pass << " has loops, and constants that differ by radius";
         }
-        EXPECT_GT(differ, 0u) << "the radius must arrive somewhere";
+        EXPECT_GT(differ, 0u) << "the radius must change some constant";
     }
 }
 
-TEST_F(StatisticalCost, goesWithTheTexelsOfTheTables) {
+TEST_F(StatisticalCost, scalesWithTheTexelsOfTheTables) {
     const Work full = workOf(hills(), values({}, "paper")), half = workOf(hills(), values({}, "paper_half"));
     const Work quarter = workOf(hills(), values({}, "paper_quarter"));
     ASSERT_EQ(full.dispatches.size(), half.dispatches.size());

@@ -1,6 +1,6 @@
 // Accuracy on the stored captured frames.
 #include "ao/oracle.h"
-#include "statistical/bench.h"
+#include "statistical/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -11,16 +11,16 @@ protected:
     float error(const std::string& name, const ao::Values& values) { return measure(name, values, "quadratic:1", "world.quadratic_1").raw.eA; }
 };
 
-TEST_F(StatisticalOracle, corner) { EXPECT_LE(error("corner", values({}, "quality")), 0.020f); }
+TEST_F(StatisticalOracle, cornerErrorIsBelowTheLimit) { EXPECT_LE(error("corner", values({}, "quality")), 0.020f); }
 
-TEST_F(StatisticalOracle, atrium) { EXPECT_LE(error("atrium", values({}, "quality")), 0.044f); }
+TEST_F(StatisticalOracle, atriumErrorIsBelowTheLimit) { EXPECT_LE(error("atrium", values({}, "quality")), 0.044f); }
 
-TEST_F(StatisticalOracle, fourAdaptiveLayersAreAsGoodAs64Uniform) {
+TEST_F(StatisticalOracle, fourAdaptiveLayersMatch64Uniform) {
     for (const char* name : {"corner", "sphere", "atrium"})
         EXPECT_NEAR(error(name, values({}, "quality")), error(name, values({{"layers", kUniform64}}, "quality")), 0.003f) << name;
 }
 
-TEST_F(StatisticalOracle, eachThingThatCostsIsWorthIt) {
+TEST_F(StatisticalOracle, everyCostlierSettingReducesTheError) {
     const float quality = error("atrium", values({}, "quality")), half = error("atrium", values({})), paper = error("atrium", values({}, "paper"));
     EXPECT_LT(quality, half);
     EXPECT_LT(quality, paper);

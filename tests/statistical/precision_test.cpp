@@ -1,8 +1,8 @@
-// The windowed height in fixed point against the same in double precision, on a captured frame: Sponza of the stored
-// references, or what OBSCURA_FRAME names.
+// The windowed height in fixed point against double precision, on a captured frame: Sponza of the stored references, or the
+// frame named by OBSCURA_FRAME.
 #include <cstdlib>
 
-#include "statistical/bench.h"
+#include "statistical/fixture.h"
 #include "truth/captured_frame.h"
 
 namespace obscura::test {
@@ -18,7 +18,7 @@ truth::CapturedFrame frameOfRecord() {
     return truth::readCapture(stem);
 }
 
-TEST_F(TablesTest, windowedHeightsAreRightToHalfAMillimetre) {
+TEST_F(TablesTest, windowedHeightsAreExactToHalfAMillimetre) {
     const truth::CapturedFrame captured = frameOfRecord();
     Room room;
     room.width = captured.size.x;
@@ -51,7 +51,7 @@ TEST_F(TablesTest, windowedHeightsAreRightToHalfAMillimetre) {
             for (uint32_t x = 0; x < captured.visible().x; ++x) {
                 const uint32_t px = x + captured.guard.x, py = y + captured.guard.y;
                 if (captured.isSky(captured.index(px, py))) continue;
-                // The window that single precision makes: its edges are part of the question.
+                // The window in single precision, as in the shader, so that its edges agree.
                 const float reach = std::clamp(half * view.pixelsPerMetre / room.depth[size_t(py) * room.width + px], 1.0f, largest);
                 const auto sample = [&](float u, float v) {
                     u = std::clamp(u, 0.0f, float(room.width));
@@ -70,7 +70,7 @@ TEST_F(TablesTest, windowedHeightsAreRightToHalfAMillimetre) {
                 sum += error;
                 ++count;
             }
-        printf("%ux%u, r %.2f m: height off by %.3f mm in the mean, %.3f mm at most; 1/%g m, depths %.2f to %.2f m\n", captured.visible().x, captured.visible().y,
+        printf("%ux%u, r %.2f m: height error %.3f mm mean, %.3f mm maximum; 1/%g m, depths %.2f to %.2f m\n", captured.visible().x, captured.visible().y,
                double(half), 1e3 * sum / double(count), 1e3 * most, double(t.units), double(t.nearest), double(t.furthest));
         EXPECT_LE(most, 0.5e-3) << half;
     }

@@ -1,12 +1,12 @@
-// Tables against sums made one after the other, to the bit; windows against exact integrals; psi.
+// Tables against sequential sums, bit by bit; windows against exact integrals; the function psi.
 #include <random>
 
-#include "statistical/bench.h"
+#include "statistical/fixture.h"
 
 namespace obscura::test {
 namespace {
 
-// Depths without any order, a near stripe, some sky: all that can make a sum overflow or a layer empty.
+// Random depths, a near stripe, some sky: cases that could overflow a sum or empty a layer.
 Room rubble(uint32_t width, uint32_t height, float furthest) {
     Room room;
     room.width = width;
@@ -22,7 +22,7 @@ Room rubble(uint32_t width, uint32_t height, float furthest) {
     return room;
 }
 
-// Table of the texels that `counts`, in 64 bits.
+// Summed-area table of the texels for which `counts` holds, in 64 bits.
 template <class Counts>
 std::vector<std::array<int64_t, 4>> tableOf(const std::vector<Texel>& texels, shared::uvec2 size, Counts counts) {
     std::vector<std::array<int64_t, 4>> table(size_t(size.x + 1) * (size.y + 1));
@@ -35,12 +35,12 @@ std::vector<std::array<int64_t, 4>> tableOf(const std::vector<Texel>& texels, sh
     return table;
 }
 
-TEST_F(TablesTest, everyLayerIsTheSumOfItsTexelsToTheBit) {
+TEST_F(TablesTest, everyLayerIsTheExactSumOfItsTexels) {
     for (const uint32_t side : {1u, 2u, 4u}) {
         const Room room = rubble(131, 77, 40.0f);
         const Tables t = tables(room, {0.6f, 1.2f, 20.0f, side}, 3);
         ASSERT_EQ(t.size.x, (131 + side - 1) / side);
-        // Those that are built, and by differences those that are not: code, mask and table minus tables.
+        // Built layers, and layers that follow as differences: code, mask, table minus tables.
         struct Sum { const std::vector<Texel>* table; uint32_t layers, layer; };
         const Sum s0{&t.root, 1, 0}, s10{&t.levels[0], 1, 0}, s20{&t.levels[1], 2, 0}, s22{&t.levels[1], 2, 1};
         const Sum s30{&t.levels[2], 4, 0}, s32{&t.levels[2], 4, 1}, s34{&t.levels[2], 4, 2}, s36{&t.levels[2], 4, 3};
@@ -67,7 +67,7 @@ TEST_F(TablesTest, everyLayerIsTheSumOfItsTexelsToTheBit) {
 }
 
 TEST_F(TablesTest, noWindowOverflows) {
-    // Large windows over far coordinates: the whole table wraps around, and no window may.
+    // Large windows over far coordinates: entries of the table wrap around, differences over a window must not.
     for (const uint32_t side : {1u, 2u}) {
         const Room room = rubble(400, 300, 900.0f);
         const shared::Box box{2.0f, 4.0f, 60.0f, side};
@@ -75,7 +75,7 @@ TEST_F(TablesTest, noWindowOverflows) {
         EXPECT_EQ(t.nearest, 0.5f);
         const double reach = (60.0 + side) * 2.0, most = reach * reach * (double(t.coordinate) * t.units + 1.0);
         EXPECT_LT(most, 2147483648.0);
-        EXPECT_GT(most, 2147483648.0 / 4.0) << "precision given away";
+        EXPECT_GT(most, 2147483648.0 / 4.0) << "the range of 32 bits is not used";
         const auto exact = tableOf(t.texels, t.size, [](size_t) { return true; });
         const uint32_t w = t.size.x + 1, window = uint32_t(reach) / side;
         int64_t largest = 0, whole = 0;
@@ -89,12 +89,12 @@ TEST_F(TablesTest, noWindowOverflows) {
                     largest = std::max(largest, std::abs(sum));
                 }
         for (int c = 0; c < 3; ++c) whole = std::max(whole, std::abs(exact.back()[c]));
-        EXPECT_GT(whole, int64_t(1) << 31) << "nothing wrapped around";
+        EXPECT_GT(whole, int64_t(1) << 31) << "no entry wrapped around";
         EXPECT_GT(largest, int64_t(1) << 28);
     }
 }
 
-TEST_F(TablesTest, countsAreThePixelsThatAreNotSky) {
+TEST_F(TablesTest, countsExcludeSky) {
     for (const uint32_t side : {1u, 2u, 4u}) {
         const Room room = rubble(75, 50, 20.0f);
         const Tables t = tables(room, {0.5f, 1.0f, 20.0f, side}, 0);
@@ -116,8 +116,8 @@ TEST_F(TablesTest, countsAreThePixelsThatAreNotSky) {
     }
 }
 
-TEST_F(TablesTest, aConstantPictureHasItsConstantAndItsAreaInAnyWindow) {
-    // A wall straight ahead: z is the same all over, window sizes are not whole.
+TEST_F(TablesTest, windowsOfAConstantDepthAreExact) {
+    // A wall facing the camera: z is constant, window sizes are fractional.
     Room room;
     room.build();
     std::fill(room.depth.begin(), room.depth.end(), 4.0f);
@@ -139,7 +139,7 @@ TEST_F(TablesTest, aConstantPictureHasItsConstantAndItsAreaInAnyWindow) {
 class Tilted : public TablesTest, public testing::WithParamInterface<std::array<float, 3>> {};
 INSTANTIATE_TEST_SUITE_P(Tables, Tilted, testing::Values(std::array{0.0f, 1.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{-0.7f, 0.1f, 0.7f}));
 
-TEST_P(Tilted, planesHaveNoHeightOverThemselves) {
+TEST_P(Tilted, meanHeightOverAPlaneIsZero) {
     const Room room = plane(GetParam(), 20.0f);
     for (const uint32_t side : {1u, 2u, 4u}) {
         const Tables t = tables(room, {0.75f, 1.5f, 20.0f, side}, 0);
@@ -161,7 +161,7 @@ TEST_F(TablesTest, psiRisesToOneAndFallsFourTimesAsFast) {
     m_device.nextFrame();
     m_graph.begin();
     m_graph.pass("psi", psi).write(m_graph.import("to", to, graph::Graph::Shared::written)).dispatch(1);
-    ASSERT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_graph.execute(cmd), gpu::Status::ok); }), gpu::Status::ok);
+    ASSERT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor.execute(m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
     const float expected[] = {0, 0, 0.5f, 1, 0.5f, 0, 0, 0.25f, 0.5f, 0, 0, 0};
     for (int i = 0; i < 12; ++i) EXPECT_NEAR(reinterpret_cast<const float*>(to.mapped())[i], expected[i], 1e-6f) << i;
 }

@@ -1,12 +1,12 @@
-// A wall behind a floor, whose numbers are known from an independent implementation, and what parameters must do there.
+// A wall behind a floor against the values of an independent implementation, and the influence of the parameters there.
 #include <random>
 
-#include "statistical/bench.h"
+#include "statistical/fixture.h"
 
 namespace obscura::test {
 namespace {
 
-// Floor 1.5 m below the camera, wall 8 m ahead, 320 x 180 visible.
+// Floor 1.5 m below the camera, wall 8 m ahead, 320 x 180 px visible.
 Room hall() {
     Room room;
     room.width = 384;
@@ -15,7 +15,7 @@ Room hall() {
     room.wall = -8.0f;
     room.guard = 18;
     room.build();
-    // The guard band is 32 px to the left and right; the room's own is equal on all sides.
+    // The guard band is 32 px to the left and right; that of Room is equal on all sides.
     const float f = 1.0f / std::tan(0.5236f);
     room.projection[5] = -f * 180.0f / 216.0f;
     room.projection[0] = f * 180.0f / 384.0f;
@@ -30,7 +30,7 @@ ao::Frame frameOf(const Room& room) {
 class Hall : public StatisticalTest {
 protected:
     Picture run(const ao::Values& values) { return StatisticalTest::run(m_room, frameOf(m_room), values, "quadratic:1"); }
-    static double row(const Picture& picture, uint32_t y) {  // mean of the middle
+    static double row(const Picture& picture, uint32_t y) {  // mean over the middle of the row
         double sum = 0.0;
         for (uint32_t x = 150; x < 170; ++x) sum += picture[size_t(y) * 320 + x];
         return sum / 20.0;
@@ -38,22 +38,22 @@ protected:
     const Room m_room = hall();
 };
 
-TEST_F(Hall, isAsKnown) {
+TEST_F(Hall, matchesTheIndependentImplementation) {
     const Picture picture = run(values({{"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1}, {"largest", 0.25f}}, "quality"));
     for (const auto& [y, expected] : {std::pair{119u, 0.1216}, {120u, 0.1097}, {121u, 0.0987}, {123u, 0.0796}, {117u, 0.1242}, {114u, 0.1531}, {109u, 0.0673}})
         EXPECT_NEAR(row(picture, y), expected, 5e-4) << "row " << y;
 }
 
-TEST_F(Hall, isAsKnownWithoutQuadrantsInASmallBox) {
+TEST_F(Hall, matchesWithoutQuadrantsInASmallBox) {
     const Changes small = {{"gain", 1}, {"radius", 0.5f}, {"height", 0.5f}, {"slope", 1}, {"quadrants", 0}};
     const Picture four = run(values(small, "quality"));
     for (const auto& [y, expected] : {std::pair{119u, 0.2390}, {120u, 0.2001}, {121u, 0.1653}, {123u, 0.1096}, {117u, 0.1145}}) EXPECT_NEAR(row(four, y), expected, 1e-3) << "row " << y;
     Changes one = small;
     one.push_back({"layers", kOne});
-    EXPECT_NEAR(row(run(values(one, "quality")), 117), 0.7665, 2e-3);  // the floor in front is averaged in: layers keep it out
+    EXPECT_NEAR(row(run(values(one, "quality")), 117), 0.7665, 2e-3);  // with one layer the floor in front is averaged in
 }
 
-TEST_F(Hall, quadrantsAndSamplesAreTheirOwnPictures) {
+TEST_F(Hall, quadrantsChangeTheResultAndPointsAgree) {
     const Picture whole = run(values({}, "paper")), quarters = run(values({}, "quality")), points = run(values({{"estimator", kPoints}}, "quality"));
     EXPECT_NE(whole, quarters);
     double difference = 0.0;
@@ -69,7 +69,7 @@ TEST_F(Hall, linesConvergeToPoints) {
     EXPECT_GT(mean(lines), 0.015);
 }
 
-TEST_F(Hall, adaptiveLayersComeNearUniformOnes) {
+TEST_F(Hall, adaptiveLayersConvergeToUniformOnes) {
     const Picture uniform = run(values({{"layers", kUniform64}}, "quality"));
     double before = 1.0;
     for (const Layering layering : {kOne, kTwo, kFour, kEight}) {
@@ -84,14 +84,14 @@ TEST_F(Hall, adaptiveLayersComeNearUniformOnes) {
 
 TEST_F(StatisticalTest, planesAreOpen) {
     for (const auto& normal : {std::array{0.0f, 1.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{-0.7f, 0.1f, 0.7f}}) {
-        const Room room = plane(normal, 6.0f);  // further away, 0.004 degrees of the packed normal show
+        const Room room = plane(normal, 6.0f);  // farther away the error of the packed normal, 0.004 degrees, is visible
         for (const char* preset : {"default", "paper", "quality"}) {
-            EXPECT_LT(highest(run(room, values({}, preset))), 5e-4f) << preset;  // 1, or what a half float has next to it
+            EXPECT_LT(highest(run(room, values({}, preset))), 5e-4f) << preset;  // visibility is 1, or the half float next to 1
         }
     }
 }
 
-TEST_F(StatisticalTest, seedsDoNotMatter) {
+TEST_F(StatisticalTest, resultIsIndependentOfTheFrameIndex) {
     Room room;
     room.wall = -4.0f;
     room.build();
@@ -103,8 +103,8 @@ TEST_F(StatisticalTest, seedsDoNotMatter) {
     }
 }
 
-TEST_F(StatisticalTest, aBoxTooWideForItsWindowShrinksAndKeepsItsShape) {
-    // Orthographic, 5 cm a pixel, so that windows are equally wide everywhere: 16 px where 8.8 are the most.
+TEST_F(StatisticalTest, limitedWindowScalesTheBox) {
+    // Orthographic, 5 cm per px, so that all windows have the same width: 16 px, limited to 8.8 px.
     Room room;
     room.build();
     const float scale = 2.0f / 0.05f;
@@ -123,7 +123,7 @@ TEST_F(StatisticalTest, aBoxTooWideForItsWindowShrinksAndKeepsItsShape) {
     EXPECT_LT(difference, 0.002);
 }
 
-TEST_F(StatisticalTest, theBoxFollowsTheFalloff) {
+TEST_F(StatisticalTest, boxScalesWithTheFalloff) {
     Room room;
     room.wall = -4.0f;
     room.build();

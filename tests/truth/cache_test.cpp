@@ -1,4 +1,4 @@
-// The cache of references: found again, broken files made again, keys that cover what matters.
+// The cache of references: hits, damaged files, keys.
 #include <cstdlib>
 
 #include "scratch.h"
@@ -27,7 +27,7 @@ struct Setting {
     Reference make() const { return WorldReference(shapes.posed(), geometry).trace(frame, falloffs, options); }
 };
 
-TEST(Cache, findsWhatWasMade) {
+TEST(Cache, findsStoredReferences) {
     const Scratch scratch;
     const Setting setting;
     std::vector<std::string> lines;
@@ -50,7 +50,7 @@ TEST(Cache, findsWhatWasMade) {
     EXPECT_TRUE(lines.empty());
 }
 
-TEST(Cache, brokenFilesAreMadeAgainAndSaidSo) {
+TEST(Cache, damagedFilesAreReplacedWithALogLine) {
     const Setting setting;
     for (const int damage : {0, 1, 2}) {
         const Scratch scratch;
@@ -70,13 +70,13 @@ TEST(Cache, brokenFilesAreMadeAgainAndSaidSo) {
         const Reference again = cache.get(setting.key(), [&] { return ++made, setting.make(); });
         EXPECT_EQ(made, 1) << damage;
         ASSERT_EQ(lines.size(), 1u) << damage;
-        EXPECT_NE(lines[0].find("making the reference again"), std::string::npos);
+        EXPECT_NE(lines[0].find("the reference is traced again"), std::string::npos);
         EXPECT_EQ(again.channels[0].obscurance.values, fresh.channels[0].obscurance.values);
         EXPECT_TRUE(cache.get(setting.key(), [&] { return setting.make(); }).fromCache);
     }
 }
 
-TEST(Cache, unwritableFolderIsToldOnceAndWorkGoesOn) {
+TEST(Cache, unwritableFolderIsReportedOnce) {
     const Scratch scratch;
     test::writeText(scratch / "file", "in the way");
     const Setting setting;
@@ -90,14 +90,14 @@ TEST(Cache, unwritableFolderIsToldOnceAndWorkGoesOn) {
     EXPECT_EQ(made, 3);
 }
 
-TEST(Cache, stoppedWorkLeavesNothing) {
+TEST(Cache, stoppedTraceLeavesNoFile) {
     const Scratch scratch;
     ReferenceCache cache(scratch.path());
     test::expectError([&] { cache.get("key", []() -> Reference { throw scene::Error("stopped"); }); }, "stopped");
     EXPECT_EQ(scratch.files(), 0u);
 }
 
-TEST(Cache, keyCoversWhatDeterminesTheReference) {
+TEST(Cache, keyCoversAllInputs) {
     const Setting base;
     const std::string key = base.key();
     EXPECT_EQ(key, Setting().key());
@@ -114,7 +114,7 @@ TEST(Cache, keyCoversWhatDeterminesTheReference) {
     differs([](Setting& s) { s.frame.projection[0][0] *= 1.001f; });
     differs([](Setting& s) { s.frame.camera.emplace().eye.x += 0.1f; });
     differs([](Setting& s) { s.falloffs.pop_back(); });
-    differs([](Setting& s) { s.falloffs[0].rho = [](float d) { return d < 1.0f ? 1.0f - d : 0.0f; }; });  // same name
+    differs([](Setting& s) { s.falloffs[0].rho = [](float d) { return d < 1.0f ? 1.0f - d : 0.0f; }; });  // other function, same name
     differs([](Setting& s) { s.falloffs[0].reach = 1.9f; });
     differs([](Setting& s) { s.options.seed = 2; });
     differs([](Setting& s) { s.options.maxRays = 64; });
@@ -132,19 +132,19 @@ TEST(Cache, keyCoversWhatDeterminesTheReference) {
     EXPECT_NE(screenKey(base.frame, base.falloffs, options), screen);
 }
 
-TEST(Cache, aNotedReferenceIsFoundByWhatIsKnownBeforeDrawing) {
+TEST(Cache, notedReferenceIsFoundByItsViewKey) {
     const Scratch scratch;
     const Setting setting;
     ReferenceCache cache(scratch.path());
     EXPECT_FALSE(cache.find("view-none"));
     cache.note("view-dangling", setting.key());
-    EXPECT_FALSE(cache.find("view-dangling")) << "nobody has made it";
+    EXPECT_FALSE(cache.find("view-dangling")) << "the reference does not exist yet";
     const Reference made = cache.get(setting.key(), [&] { return setting.make(); });
     const auto found = cache.find("view-dangling");
     ASSERT_TRUE(found);
     EXPECT_EQ(found->channels[0].obscurance.values, made.channels[0].obscurance.values);
     test::writeText(cache.fileOf(setting.key()), "");
-    EXPECT_FALSE(cache.find("view-dangling")) << "broken";
+    EXPECT_FALSE(cache.find("view-dangling")) << "the file is damaged";
 
     scene::World world;
     auto model = std::make_shared<scene::Model>();
@@ -155,7 +155,7 @@ TEST(Cache, aNotedReferenceIsFoundByWhatIsKnownBeforeDrawing) {
         return viewKey(w, time, c, size, {}, rayFalloff(falloff));
     };
     const std::string first = key(world, 1.0f, camera, {8, 8}, "quadratic:2");
-    EXPECT_EQ(first, key(world, 2.0f, camera, {8, 8}, "quadratic:2")) << "nothing moves";
+    EXPECT_EQ(first, key(world, 2.0f, camera, {8, 8}, "quadratic:2")) << "a resting world has one key at all times";
     scene::Camera near = camera, turned = camera;
     near.nearPlane *= 2.0f;
     turned.target.x += 1e-3f;

@@ -1,4 +1,4 @@
-// Captures: what is written comes back, other conventions mean the same frame, and bad input is one line.
+// Captured frames: round trip, depth and normal conventions, one-line errors for invalid input.
 #include <cmath>
 #include <limits>
 
@@ -15,7 +15,7 @@ using namespace obscura::truth;
 using test::expectError;
 using test::Scratch;
 
-// A tilted plane seen by a camera in the world, with a strip of sky.
+// A tilted plane with a strip of sky, camera in the world.
 CapturedFrame sample() {
     scene::Camera camera;
     camera.eye = {1.0f, 2.0f, 3.0f};
@@ -43,7 +43,7 @@ void replaceIn(const std::filesystem::path& file, const std::string& from, const
     test::writeText(file, text.replace(at, from.size(), to));
 }
 
-TEST(Capture, comesBack) {
+TEST(Capture, roundTrips) {
     const Scratch scratch;
     const CapturedFrame frame = sample();
     writeCapture(scratch / "view", frame);
@@ -69,7 +69,7 @@ TEST(Capture, positionsLieOnThePlane) {
             if (!frame.isSky(frame.index(x, y))) { EXPECT_NEAR(glm::dot(n, frame.eyePosition(x, y)), -1.5f, 1e-4f); }
 }
 
-TEST(Capture, deviceDepthAndWorldNormalsMeanTheSame) {
+TEST(Capture, deviceDepthAndWorldNormalsGiveTheSameFrame) {
     const Scratch scratch;
     const CapturedFrame frame = sample();
     writeCapture(scratch / "view", frame);
@@ -82,7 +82,7 @@ TEST(Capture, deviceDepthAndWorldNormalsMeanTheSame) {
     std::string numbers;
     for (int i = 0; i < 16; ++i) numbers += fmt::format("{}{}", i ? "," : "", glm::value_ptr(projection)[i]);
     replaceIn(scratch / "view.json", "\"near\"", "\"depth\":\"device\",\"normals\":\"world\",\"projection\":[" + numbers + "],\"near\"");
-    // Its y points the other way, so rows come bottom to top.
+    // Its y points up, so rows are stored bottom to top.
     Picture picture = readExr(scratch / "view.capture.exr");
     const glm::mat3 worldFromEye(frame.worldFromEye());
     for (uint32_t y = 0; y < frame.size.y; ++y)
@@ -106,7 +106,7 @@ TEST(Capture, deviceDepthAndWorldNormalsMeanTheSame) {
         }
 }
 
-TEST(Capture, withoutNormalsTheyAreMissingAndCanBeMade) {
+TEST(Capture, missingNormalsCanBeReconstructed) {
     const Scratch scratch;
     CapturedFrame frame = sample();
     const std::vector<glm::vec3> normals = frame.normals;
@@ -131,7 +131,7 @@ TEST(Capture, everyMissingFieldIsNamed) {
     }
 }
 
-TEST(Capture, badValuesAreNamedWithTheirPixel) {
+TEST(Capture, invalidValuesAreNamedWithTheirPixel) {
     const Scratch scratch;
     const auto expectBad = [&](const char* channel, float value, const std::string& part) {
         writeCapture(scratch / "view", sample());
@@ -148,7 +148,7 @@ TEST(Capture, badValuesAreNamedWithTheirPixel) {
     expectBad("N.Y", std::nanf(""), "N has length nan at pixel (7, 20)");
 }
 
-TEST(Capture, badFilesSayWhatToDo) {
+TEST(Capture, invalidFilesGiveActionableErrors) {
     const Scratch scratch;
     expectError([&] { readCapture(scratch / "none"); }, "none.json: is missing");
     writeCapture(scratch / "view", sample());
@@ -174,7 +174,7 @@ TEST(Capture, badFilesSayWhatToDo) {
     expectError([&] { readCapture(scratch / "view"); }, "must be \"linear\" or \"device\", not \"reversed\"");
 }
 
-TEST(Capture, badFramesAreNotWritten) {
+TEST(Capture, invalidFramesAreNotWritten) {
     const Scratch scratch;
     CapturedFrame frame = sample();
     frame.depth[5] = std::nanf("");

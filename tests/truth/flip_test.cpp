@@ -1,4 +1,4 @@
-// FLIP against closed forms and against its definition evaluated plainly: 2D kernels, one pixel at a time, double precision.
+// FLIP against closed forms, and against its definition: 2D kernels, one pixel at a time, double precision.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ double lightness(double y) { return y > 216.0 / 24389.0 ? 116.0 * std::cbrt(y) -
 // sRGB's green is CIELAB (87.74, -86.18, 83.18), its blue (32.30, 79.19, -107.86); chroma times lightness / 100.
 const double kGreenToBlue = 87.74 - 32.30 + std::hypot(0.8774 * -86.18 - 0.3230 * 79.19, 0.8774 * 83.18 + 0.3230 * 107.86);
 
-// Of two flat greys: no features, and a CIELAB that is all lightness.
+// FLIP of two uniform greys: no features, only lightness differs.
 double flatFlip(double a, double b) {
     const double largest = std::pow(kGreenToBlue, 0.7);
     const double d = std::pow(std::fabs(lightness(a) - lightness(b)), 0.7);
@@ -54,7 +54,7 @@ TEST(Flip, isSymmetricAndGrowsWithTheDifference) {
     EXPECT_GT(larger, 1.5 * smaller);
 }
 
-// ---- The definition, plainly ----------------------------------------------------------------------------------------
+// ---- The definition, by pixel ---------------------------------------------------------------------------------------
 
 struct Plain {
     int width, height;
@@ -129,7 +129,7 @@ double feature(const Plain& opponents, int px, int py, double ppd, bool edge) {
 
 double hyab(const Vec& a, const Vec& b) { return std::fabs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]); }
 
-TEST(Flip, isItsDefinitionInColour) {
+TEST(Flip, matchesItsDefinitionInColour) {
     const int width = 36, height = 28;
     const double ppd = 67.020643;
     std::array<Plane, 3> reference, test;

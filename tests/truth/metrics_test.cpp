@@ -1,4 +1,4 @@
-// Metrics on pictures whose errors are known.
+// Error metrics on images with known errors.
 #include <cmath>
 
 #include "scratch.h"
@@ -51,9 +51,9 @@ TEST(Metrics, constantOffsetIsBiasAndError) {
     EXPECT_NEAR(compare(r, a).raw.bias, -0.1f, 1e-6f);
 }
 
-TEST(Metrics, percentilesAndShares) {
+TEST(Metrics, percentilesAndFractions) {
     Plane r(100, 100, 0.5f), a = r;
-    for (int i = 0; i < 10000; ++i) a.values[size_t(i)] += i < 9900 ? (i % 2 ? 0.04f : -0.04f) : 0.3f;  // exactly 1 % is far off
+    for (int i = 0; i < 10000; ++i) a.values[size_t(i)] += i < 9900 ? (i % 2 ? 0.04f : -0.04f) : 0.3f;  // exactly 1 % has a large error
     const Metrics m = compare(a, r);
     EXPECT_NEAR(m.raw.p99, 0.04f, 1e-6f);
     EXPECT_NEAR(m.raw.e5, 0.99f, 1e-6f);
@@ -64,7 +64,7 @@ TEST(Metrics, percentilesAndShares) {
     EXPECT_GT(compare(a, r).raw.p99, 0.15f);
 }
 
-TEST(Metrics, aPowerSliderIsFound) {
+TEST(Metrics, bestPowerIsFound) {
     const Plane a = textured(64, 48);
     for (const float gamma : {0.3f, 0.8f, 2.2f, 5.0f}) {
         Plane r = a;
@@ -76,8 +76,8 @@ TEST(Metrics, aPowerSliderIsFound) {
     }
 }
 
-// One pixel of SSIM by the definition, far from the border.
-TEST(Metrics, ssimIsTheDefinition) {
+// SSIM of one pixel by its definition, far from the border.
+TEST(Metrics, ssimMatchesItsDefinition) {
     const Plane a = textured(32, 32);
     Plane b = a;
     for (size_t i = 0; i < b.pixels(); ++i) b.values[i] = 0.7f * b.values[i] + 0.2f * noise(uint32_t(i) + 77u);
@@ -120,13 +120,13 @@ CapturedFrame scene() {
     return frame;
 }
 
-TEST(Metrics, regionsLieWhereTheyShould) {
+TEST(Metrics, regionsCoverTheirPixels) {
     const CapturedFrame frame = scene();
     const Regions regions = regionsOf(frame);
     const auto in = [&](Region region, uint32_t x, uint32_t y) { return regions[region][size_t(y) * 100 + x] != 0; };
     EXPECT_FALSE(in(Region::whole, 50, 5));  // sky
     EXPECT_TRUE(in(Region::whole, 50, 20));
-    // Eight pixels of the far side of the block, nothing of the block itself.
+    // Eight pixels beyond the edge of the block, none on the block.
     EXPECT_TRUE(in(Region::halo, 40, 45));
     EXPECT_TRUE(in(Region::halo, 47, 45));
     EXPECT_FALSE(in(Region::halo, 48, 45));
@@ -151,10 +151,10 @@ TEST(Metrics, regionsLieWhereTheyShould) {
     EXPECT_TRUE(regions[Region::disoccluded].empty());
 }
 
-TEST(Metrics, anErrorShowsInItsRegionOnly) {
+TEST(Metrics, errorsAffectOnlyTheirRegion) {
     const CapturedFrame frame = scene();
     Mask uncovered(6000, 0);
-    uncovered[20 * 100 + 60] = uncovered[20 * 100 + 61] = uncovered[0] = 1;  // the last one is sky
+    uncovered[20 * 100 + 60] = uncovered[20 * 100 + 61] = uncovered[0] = 1;  // the last pixel is sky
     const Regions regions = regionsOf(frame, uncovered);
     Plane r(100, 60, 0.5f), a = r;
     for (size_t i = 0; i < r.pixels(); ++i)
@@ -173,7 +173,7 @@ TEST(Metrics, anErrorShowsInItsRegionOnly) {
     EXPECT_EQ(compare(a, r, regionsOf(frame)).size(), 4u);
 }
 
-TEST(Metrics, badInputIsOneLine) {
+TEST(Metrics, invalidInputGivesOneLine) {
     Plane a(10, 10, 0.5f), b(10, 11, 0.5f);
     test::expectError([&] { compare(a, b); }, "the picture is 10 x 10 pixels, its reference 10 x 11");
     Plane c = a;

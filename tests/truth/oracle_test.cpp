@@ -1,5 +1,5 @@
-// Both references against stored ones made by other means. The folder is found beside the project or named by
-// OBSCURA_ORACLE; without it these tests are skipped.
+// Both ray-traced references against stored ones of independent implementations. The folder lies beside the project or is
+// named by OBSCURA_ORACLE; without it these tests are skipped.
 #include <cstdlib>
 #include <ctime>
 
@@ -82,7 +82,7 @@ TEST(WorldOracle, atrium) { expectWorld("atrium", folder("OBSCURA_ORACLE", "orac
 TEST(WorldOracle, sponza) { expectWorld("sponza_a", folder("OBSCURA_CONTENT", "content") / "sponza/512/Sponza.gltf", 9); }
 TEST(WorldOracle, dragon) { expectWorld("dragon", folder("OBSCURA_CONTENT", "content") / "scenes/dragon.glb", 8); }
 
-// Not a test but a measurement: obscura_truth_tests --gtest_also_run_disabled_tests --gtest_filter='*raysPerSecond'
+// A measurement, not a test: obscura_truth_tests --gtest_also_run_disabled_tests --gtest_filter='*raysPerSecond'
 TEST(WorldOracle, DISABLED_raysPerSecond) {
     const Stored stored("sponza_a", "world");
     const fs::path file = folder("OBSCURA_CONTENT", "content") / "sponza/512/Sponza.gltf";
@@ -99,7 +99,7 @@ TEST(WorldOracle, DISABLED_raysPerSecond) {
     };
     for (const bool skipMasked : {true, false}) {
         const WorldReference reference(posed, {.skipMasked = skipMasked});
-        printf("%zu triangles, tree in %.2f s, masked primitives %s\n", reference.triangles(), reference.buildSeconds(), skipMasked ? "left out" : "in");
+        printf("%zu triangles, tree in %.2f s, masked primitives %s\n", reference.triangles(), reference.buildSeconds(), skipMasked ? "skipped" : "included");
         for (const char* falloff : {"constant:2", "quadratic:2", "exponential:1"})
             for (const bool packets : {false, true})
                 for (const uint32_t threads : {1u, 2u}) {
@@ -113,7 +113,7 @@ TEST(WorldOracle, DISABLED_raysPerSecond) {
                     const double start = processorSeconds();
                     const Reference result = reference.trace(stored.frame, falloffs, options);
                     const double used = processorSeconds() - start;
-                    printf("  %-14s %-7s %u threads: %5.2f million rays a second, %5.2f a processor second\n", falloff, packets ? "packets" : "single",
+                    printf("  %-14s %-7s %u threads: %5.2f million rays/s, %5.2f per CPU second\n", falloff, packets ? "packets" : "single",
                            threads, 1e-6 * double(result.totalRays) / result.seconds, 1e-6 * double(result.totalRays) / used);
                 }
     }

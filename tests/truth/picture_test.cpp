@@ -1,4 +1,4 @@
-// EXR files: whole out, whole or a reason in.
+// EXR files: complete on writing; on reading complete or refused with a reason.
 #include <cstring>
 
 #include "scratch.h"
@@ -20,7 +20,7 @@ Picture sample() {
     return picture;
 }
 
-TEST(Picture, comesBackToTheBit) {
+TEST(Picture, roundTripsExactly) {
     const Scratch scratch;
     writeExr(scratch / "a.exr", sample());
     EXPECT_EQ(scratch.files(), 1u);
@@ -33,14 +33,14 @@ TEST(Picture, comesBackToTheBit) {
     EXPECT_EQ(some.channels[1].name, "N.X");
 }
 
-TEST(Picture, missingChannelIsNamedWithThoseThereAre) {
+TEST(Picture, missingChannelIsNamedWithTheExistingOnes) {
     const Scratch scratch;
     writeExr(scratch / "a.exr", sample());
     expectError([&] { readExr(scratch / "a.exr", {"Z", "N.Y"}); }, "channel N.Y is missing; there are N.X, Z, world.quadratic_2");
     expectError([&] { sample().plane("R"); }, "no channel \"R\"");
 }
 
-TEST(Picture, anyTruncationIsAnError) {
+TEST(Picture, everyTruncationIsAnError) {
     const Scratch scratch;
     writeExr(scratch / "a.exr", sample());
     const std::string bytes = obscura::test::readText(scratch / "a.exr");
@@ -51,12 +51,12 @@ TEST(Picture, anyTruncationIsAnError) {
     }
 }
 
-// A block that names the wrong lines would leave others unwritten.
+// A block with wrong line numbers would leave other lines unset.
 TEST(Picture, misplacedLinesAreAnError) {
     const Scratch scratch;
     writeExr(scratch / "a.exr", sample());
     std::string bytes = obscura::test::readText(scratch / "a.exr");
-    // Two blocks of lines: their offsets stand right before the first block.
+    // Two blocks of lines: their offset table ends where the first block begins.
     size_t table = 8;
     uint64_t offsets[2] = {};
     for (; table + 16 < bytes.size(); ++table) {
@@ -90,14 +90,14 @@ TEST(Picture, damageNeverCrashes) {
     }
 }
 
-TEST(Picture, wrongFilesSayWhatTheyAre) {
+TEST(Picture, wrongFileTypesAreNamed) {
     const Scratch scratch;
     expectError([&] { readExr(scratch / "none.exr"); }, "is missing");
     obscura::test::writeText(scratch / "text.exr", "not a picture");
     expectError([&] { readExr(scratch / "text.exr"); }, "is not an OpenEXR file");
 }
 
-TEST(Picture, failedWriteLeavesNothingAndKeepsTheOld) {
+TEST(Picture, failedWriteKeepsTheOldFile) {
     const Scratch scratch;
     expectError([&] { writeExr(scratch / "no_folder/a.exr", sample()); }, "cannot be written");
     std::filesystem::create_directory(scratch / "taken");

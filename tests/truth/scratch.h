@@ -1,4 +1,4 @@
-// A folder for one test, gone afterwards; and what the tests ask of an error: one line that names the culprit.
+// Fixture: a temporary folder for one test, and a check that an error is one line with the expected text.
 #pragma once
 
 #include <filesystem>

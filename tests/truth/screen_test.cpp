@@ -1,4 +1,4 @@
-// The screen reference against closed forms for the solids that a depth buffer describes, under validation.
+// The screen-space reference against closed forms for the solids that a depth buffer describes, under validation.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ ScreenOptions rays(uint32_t count) {
     return options;
 }
 
-// Straight down or along any axis: the surface as depth and normal over eye-space x and y, orthographic.
+// An orthographic frame: depth and normal as functions of eye-space x and y.
 CapturedFrame orthographic(glm::uvec2 visible, glm::uvec2 guard, float pixel, const std::function<float(float, float)>& depth,
                            const std::function<glm::vec3(float, float)>& normal) {
     scene::Camera camera;
@@ -47,7 +47,7 @@ CapturedFrame orthographic(glm::uvec2 visible, glm::uvec2 guard, float pixel, co
     return frame;
 }
 
-// How many receivers lie outside three standard errors, and the mean difference.
+// Number of receivers outside three standard errors, and the mean difference.
 struct Verdict {
     size_t receivers = 0, outside = 0;
     double bias = 0.0, worst = 0.0;
@@ -70,7 +70,7 @@ Verdict judge(const CapturedFrame& frame, const Reference& reference, size_t cha
     return verdict;
 }
 
-// Floors at every slant, seen in perspective, must not block their own rays: the depth buffer's stairs.
+// Tilted planes in perspective must not block their own rays at the steps between texels.
 TEST_F(ScreenReferenceTest, openPlaneIsOpen) {
     const std::vector falloffs{rayFalloff("constant:2"), rayFalloff("exponential:1")};
     for (const glm::vec3 normal : {glm::vec3(0, 0, 1), glm::vec3(0, 1, 0.02f), glm::vec3(0.7f, 0.7f, 0.05f), glm::vec3(-0.9f, 0.3f, 0.3f)}) {
@@ -96,12 +96,12 @@ TEST_F(ScreenReferenceTest, openPlaneIsOpen) {
                     << "normal " << normal.x << " " << normal.y << " " << normal.z << ", pixel " << i % 160 << ", " << i / 160;
                 sum += channel.obscurance.values[i];
             }
-            EXPECT_LT(sum * double(kBatch) * 8.0, 1e-5 * double(reference.totalRays));  // 128 rays a pixel
+            EXPECT_LT(sum * double(kBatch) * 8.0, 1e-5 * double(reference.totalRays));  // 128 rays per pixel
         }
     }
 }
 
-// A valley of two walls, each 45 degrees from the view axis, 12 mm a pixel.
+// A valley of two walls, each 45 degrees from the view axis, 12 mm per pixel.
 TEST_F(ScreenReferenceTest, rightAngledWallMatchesTheClosedForm) {
     const float s = std::sqrt(0.5f), reach = 10.0f;
     const CapturedFrame frame = orthographic({64, 126}, {868, 837}, 0.012f, [](float, float y) { return 20.0f - std::fabs(y); },
@@ -127,8 +127,8 @@ TEST_F(ScreenReferenceTest, rightAngledWallMatchesTheClosedForm) {
     }
 }
 
-// Looking straight down, a depth buffer cannot tell a sphere from a sphere on a column: that is the solid to expect.
-TEST_F(ScreenReferenceTest, sphereOverPlaneIsASphereOnAColumn) {
+// From above, a depth buffer describes a sphere as a sphere on a column.
+TEST_F(ScreenReferenceTest, sphereOverPlaneMatchesASphereOnAColumn) {
     const float radius = 0.5f, height = 1.0f, floor = 10.0f, pixel = 0.0025f;
     const CapturedFrame frame = orthographic({900, 64}, {500, 700}, pixel, [=](float x, float y) {
         const float r2 = x * x + y * y;
@@ -161,8 +161,8 @@ TEST_F(ScreenReferenceTest, sphereOverPlaneIsASphereOnAColumn) {
     EXPECT_LE(verdict.outside, verdict.receivers / 20);
 }
 
-// A well 20 m deep and `radius` wide: 1 - r^2 / (r^2 + depth^2), and 1 where nothing of the sky is left.
-TEST_F(ScreenReferenceTest, wellClosesOverItsBottom) {
+// A well 20 m deep, of radius r: obscurance 1 - r^2 / (r^2 + depth^2).
+TEST_F(ScreenReferenceTest, wellMatchesTheClosedForm) {
     for (const float radius : {4.0f, 0.1f}) {
         const float deep = 20.0f, top = 1.0f, pixel = radius / 64.0f;
         const CapturedFrame frame = orthographic({4, 4}, {80, 80}, pixel, [=](float x, float y) { return x * x + y * y < radius * radius ? top + deep : top; },
@@ -175,7 +175,7 @@ TEST_F(ScreenReferenceTest, wellClosesOverItsBottom) {
     }
 }
 
-// A plate that hangs 1 m over a floor: with infinite thickness a column, with its own thickness a plate.
+// A plate 1 m above a floor: with infinite thickness a column, with its thickness a plate.
 TEST_F(ScreenReferenceTest, thicknessLetsRaysPassBelow) {
     const float radius = 0.5f, height = 1.0f, thick = 0.1f, pixel = 0.0025f;
     const CapturedFrame frame = orthographic({800, 4}, {500, 900}, pixel, [=](float x, float y) { return x * x + y * y < radius * radius ? 9.0f - thick : 10.0f; },
@@ -205,7 +205,7 @@ TEST_F(ScreenReferenceTest, thicknessLetsRaysPassBelow) {
     }
 }
 
-TEST_F(ScreenReferenceTest, sameFrameSameBytesAndRaysWhereNeeded) {
+TEST_F(ScreenReferenceTest, isDeterministicAndAddsRaysWhereNeeded) {
     const float s = std::sqrt(0.5f);
     const CapturedFrame frame = orthographic({48, 48}, {60, 60}, 0.05f, [](float, float y) { return 20.0f - std::fabs(y); },
                                              [=](float, float y) { return glm::vec3(0.0f, y < 0.0f ? s : -s, s); });
@@ -231,11 +231,11 @@ TEST_F(ScreenReferenceTest, sameFrameSameBytesAndRaysWhereNeeded) {
     test::expectError([&] { trace(frame, falloffs, options); }, "stopped");
 }
 
-TEST_F(ScreenReferenceTest, nonsenseIsRefused) {
+TEST_F(ScreenReferenceTest, invalidInputIsRefused) {
     CapturedFrame frame = emptyFrame({8, 8}, {0, 0}, 1.0f, 0.1f);
     EXPECT_EQ(trace(frame, {rayFalloff("quadratic:2")}, {}).totalRays, 0u);  // all sky
     test::expectError([&] { trace(frame, {}, {}); }, "0 falloffs");
-    test::expectError([&] { trace(frame, {{"far", [](float) { return 1.0f; }, std::numeric_limits<float>::infinity()}}, {}); }, "end somewhere");
+    test::expectError([&] { trace(frame, {{"far", [](float) { return 1.0f; }, std::numeric_limits<float>::infinity()}}, {}); }, "finite reach");
     ScreenOptions thin;
     thin.thickness = 0.0f;
     test::expectError([&] { trace(frame, {rayFalloff("quadratic:2")}, thin); }, "thickness");

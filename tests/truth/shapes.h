@@ -1,4 +1,4 @@
-// Triangles for the world reference, and exact obscurance to hold it to.
+// Test meshes for the world reference, and exact obscurance by quadrature.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace obscura::test {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Owns what its posed primitives point to.
+// Owns the model and instance that its posed primitives point to.
 class Shapes {
 public:
     Shapes() { m_model.materials.resize(1); }

@@ -1,4 +1,4 @@
-// Measures over time on sequences whose answers are known.
+// Temporal stability metrics on sequences with known results.
 #include <cmath>
 #include <random>
 
@@ -13,7 +13,7 @@ using namespace obscura::truth;
 
 constexpr glm::uvec2 kVisible(64, 36), kGuard(8, 6);
 
-// A wall 2 m behind the origin of the world (z = -2), and, if asked, a nearer strip in front of its middle.
+// A wall at z = -2 m, optionally with a nearer strip in front of its middle.
 struct Scene {
     glm::vec3 eye{0.0f};
     bool strip = false;
@@ -30,7 +30,7 @@ struct Scene {
     }
 };
 
-// Where every pixel of a still world was for an earlier camera.
+// Motion vectors of a resting world between two cameras.
 std::vector<glm::vec2> motion(const CapturedFrame& now, const CapturedFrame& before) {
     std::vector<glm::vec2> out;
     for (uint32_t y = 0; y < now.size.y; ++y)
@@ -41,7 +41,7 @@ std::vector<glm::vec2> motion(const CapturedFrame& now, const CapturedFrame& bef
     return out;
 }
 
-// A pattern that sticks to the world.
+// A pattern fixed to the world.
 Plane painted(const CapturedFrame& frame) {
     Plane plane(kVisible.x, kVisible.y);
     for (uint32_t y = 0; y < kVisible.y; ++y)
@@ -59,7 +59,7 @@ Plane noisy(Plane plane, float deviation, uint32_t seed) {
     return plane;
 }
 
-TEST(Stability, whatSticksToTheWorldIsNoFlicker) {
+TEST(Stability, patternFixedToTheWorldDoesNotFlicker) {
     const CapturedFrame before = Scene{{0, 0, 0}}.frame(), now = Scene{{0.13f, 0.02f, -0.1f}}.frame();
     const Correspondence way = correspond(now, before, motion(now, before));
     EXPECT_GT(way.share(), 0.85f);
@@ -67,16 +67,16 @@ TEST(Stability, whatSticksToTheWorldIsNoFlicker) {
     EXPECT_LT(still.difference, 0.002f);
     EXPECT_NEAR(still.excess(), 0.0f, 1e-4f);
     EXPECT_NEAR(still.flickerOfError, 0.0f, 1e-6f);
-    // The same two pictures compared in place do differ.
+    // Compared without motion vectors, the same images differ.
     const Correspondence inPlace = correspond(before, before, std::vector<glm::vec2>(before.depth.size(), glm::vec2(0)));
     EXPECT_GT(change(inPlace, painted(now), painted(before), {painted(before), {}}, {painted(before), {}}).difference, 0.02f);
 }
 
-// Grooves narrower than a pixel come and go with its middle: they are not followed as the wall around them.
-TEST(Stability, aGrooveIsAnotherSurface) {
+// Grooves narrower than a pixel appear and vanish with its centre, so they do not correspond to the wall around them.
+TEST(Stability, groovesAreOtherSurfaces) {
     const CapturedFrame before = Scene{}.frame();
     const std::vector<glm::vec2> still(before.depth.size(), glm::vec2(0));
-    const float pixel = 2.0f / before.view().pixelsPerMetre;  // as wide as one is on the wall
+    const float pixel = 2.0f / before.view().pixelsPerMetre;  // width of a pixel on the wall, metres
     const auto share = [&](float deep) {
         CapturedFrame now = before;
         for (size_t i = 0; i < now.depth.size(); i += 2) now.depth[i] += deep * pixel;
@@ -98,7 +98,7 @@ TEST(Stability, noiseOfKnownDeviationIsMeasured) {
     EXPECT_EQ(c.referenceDifference, 0.0f);
 }
 
-TEST(Stability, changeOfTheTruthIsNotCharged) {
+TEST(Stability, changeOfTheReferenceIsNotFlicker) {
     const CapturedFrame frame = Scene{}.frame();
     const Correspondence way = correspond(frame, frame, std::vector<glm::vec2>(frame.depth.size(), glm::vec2(0)));
     const Plane dark(kVisible.x, kVisible.y, 0.3f), light(kVisible.x, kVisible.y, 0.8f);
@@ -108,8 +108,8 @@ TEST(Stability, changeOfTheTruthIsNotCharged) {
     EXPECT_NEAR(c.flickerOfError, 0.0f, 1e-6f);
 }
 
-// A reference of few rays is noisy; that is no flicker of the method.
-TEST(Stability, noiseOfTheReferenceIsTakenOff) {
+// Noise of a reference with few rays must not count as flicker of the method.
+TEST(Stability, noiseOfTheReferenceIsSubtracted) {
     const CapturedFrame frame = Scene{}.frame();
     const Correspondence way = correspond(frame, frame, std::vector<glm::vec2>(frame.depth.size(), glm::vec2(0.3f, 0.4f)));
     const Plane truth(kVisible.x, kVisible.y, 0.6f), error(kVisible.x, kVisible.y, 0.04f);
@@ -121,7 +121,7 @@ TEST(Stability, noiseOfTheReferenceIsTakenOff) {
     EXPECT_NEAR(flickering.flickerOfError, 0.05f, 0.004f);
 }
 
-TEST(Stability, whatComesOutFromBehindIsLeftOut) {
+TEST(Stability, disocclusionsAreExcluded) {
     const CapturedFrame before = Scene{{0, 0, 0}, true}.frame(), now = Scene{{0, 0, 0}, false}.frame();
     const Correspondence way = correspond(now, before, std::vector<glm::vec2>(now.depth.size(), glm::vec2(0)));
     for (uint32_t x = 0; x < kVisible.x; ++x) {
@@ -147,10 +147,10 @@ TEST(Stability, staticNoiseIsTheDeviationOfEachPixel) {
     EXPECT_EQ(some.over(Mask(32 * 32, 0)).mean, 0.0f);
 }
 
-TEST(Stability, lagCountsFramesUntilNineTenthsAreDone) {
+TEST(Stability, lagCountsFramesUntilNineTenths) {
     const Plane dark(16, 16, 0.4f), light(16, 16, 1.0f);
     const Mask all(16 * 16, 1);
-    const auto fading = [&](float kept) {  // what is left of the old state after each frame
+    const auto fading = [&](float kept) {  // `kept`: fraction of the old state left after each frame
         std::vector<Plane> after;
         float left = 1.0f;
         for (int t = 0; t < 200; ++t) {

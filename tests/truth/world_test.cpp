@@ -1,4 +1,4 @@
-// The world reference against closed forms, and what it promises about threads, packets, masks and errors.
+// The world reference against closed forms; threads, ray packets, masks, error estimates.
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -24,7 +24,7 @@ WorldOptions rays(uint32_t count) {
 
 struct Falloff {
     RayFalloff falloff;
-    double expected[3];  // at 0.1, 0.5 and 1 m of the wall
+    double expected[3];  // at 0.1, 0.5 and 1 m from the wall
 };
 std::vector<Falloff> wallFalloffs() {
     return {{{"exp(-d)", [](float d) { return std::exp(-d); }, 60.0f}, {0.34128, 0.13836, 0.05758}},
@@ -102,7 +102,7 @@ TEST(WorldReference, fullEnclosureIsOne) {
     for (const float error : reference.channels[0].error.values) EXPECT_EQ(error, 0.0f);
 }
 
-// A lumpy scene in which every receiver sees something else.
+// A scene of random lumps, different around every receiver.
 struct Lumps {
     Shapes shapes;
     std::vector<Receiver> receivers;
@@ -114,7 +114,7 @@ struct Lumps {
     }
 };
 
-TEST(WorldReference, threadsDoNotChangeABit) {
+TEST(WorldReference, isBitIdenticalForAnyThreadCount) {
     const Lumps lumps;
     const WorldReference world(lumps.shapes.posed());
     const std::vector falloffs{rayFalloff("quadratic:2"), rayFalloff("exponential:0.5")};
@@ -147,7 +147,7 @@ TEST(WorldReference, packetsAndSingleRaysAgree) {
     }
 }
 
-TEST(WorldReference, standardErrorIsWhatRepetitionShows) {
+TEST(WorldReference, standardErrorMatchesRepeatedRuns) {
     const Lumps lumps;
     const WorldReference world(lumps.shapes.posed());
     const std::vector falloffs{rayFalloff("quadratic:2")};
@@ -173,7 +173,7 @@ TEST(WorldReference, standardErrorIsWhatRepetitionShows) {
     EXPECT_LT(double(outside) / double(count), 0.02);
 }
 
-TEST(WorldReference, adaptiveSpendsRaysWhereTheVarianceIs) {
+TEST(WorldReference, adaptiveSamplingFollowsTheVariance) {
     const Lumps lumps;
     const WorldReference world(lumps.shapes.posed());
     const std::vector falloffs{rayFalloff("quadratic:2")};
@@ -193,7 +193,7 @@ TEST(WorldReference, adaptiveSpendsRaysWhereTheVarianceIs) {
     EXPECT_EQ(reference.overTarget(options.targetError), 0u);
     EXPECT_EQ(least, float(options.minRays));
     EXPECT_GT(most, 2.0f * least);
-    options.maxRays = 160;  // a limit holds
+    options.maxRays = 160;  // the limit is kept
     options.targetError = 1e-5f;
     const Reference limited = world.trace(lumps.receivers, falloffs, options);
     for (const float count : limited.rays.values) EXPECT_LE(count, 160.0f);
@@ -206,7 +206,7 @@ TEST(WorldReference, maskedTexelsLetRaysThrough) {
     model.images.resize(1);
     model.images[0].width = 2;
     model.images[0].height = 1;
-    model.images[0].rgba = {255, 255, 255, 255, 255, 255, 255, 100};  // left half is there, right half is a hole
+    model.images[0].rgba = {255, 255, 255, 255, 255, 255, 255, 100};  // left half opaque, right half a hole
     model.textures.resize(1);
     model.textures[0].image = 0;
     model.textures[0].sampler.linearMag = false;
@@ -229,7 +229,7 @@ TEST(WorldReference, maskedTexelsLetRaysThrough) {
             EXPECT_NEAR(masked[2], 0.5f * masked[0], 0.01f);
             EXPECT_EQ(none[0], 0.0f);
         }
-        // The factor, then vertex alpha, decide as well.
+        // The material factor and vertex alpha count as well.
         model.materials[0].baseColor.a = 2.0f;
         EXPECT_GT(values({}, true)[1], 0.4f);
         model.materials[0].baseColor.a = 1.0f;
@@ -240,7 +240,7 @@ TEST(WorldReference, maskedTexelsLetRaysThrough) {
     EXPECT_GT(WorldReference(shapes.posed(), {.skipBlended = false}).trace(receivers, falloffs, rays(64)).channels[0].obscurance.values[0], 0.4f);
 }
 
-TEST(WorldReference, progressIsToldAndCanStop) {
+TEST(WorldReference, progressIsReportedAndCanStop) {
     const Lumps lumps;
     const WorldReference world(lumps.shapes.posed());
     const std::vector falloffs{rayFalloff("quadratic:2")};
@@ -255,7 +255,7 @@ TEST(WorldReference, progressIsToldAndCanStop) {
     world.trace(lumps.receivers, falloffs, options);
     EXPECT_EQ(last, 1.0f);
     last = 0.0f;
-    world.trace(std::span<const Receiver>(), falloffs, options);  // nothing to do is done as well
+    world.trace(std::span<const Receiver>(), falloffs, options);  // no receivers: progress still ends at 1
     EXPECT_EQ(last, 1.0f);
     options.progress = [](float) { return false; };
     test::expectError([&] { world.trace(lumps.receivers, falloffs, options); }, "stopped");
@@ -263,7 +263,7 @@ TEST(WorldReference, progressIsToldAndCanStop) {
     test::expectError([&] { world.trace(lumps.receivers, falloffs, options); }, "from the callback");
 }
 
-TEST(WorldReference, nonsenseIsRefused) {
+TEST(WorldReference, invalidInputIsRefused) {
     Shapes shapes;
     shapes.model().name = "broken";
     shapes.quad({0, 0, std::nanf("")}, {1, 0, 0}, {0, 1, 0});

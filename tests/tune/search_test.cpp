@@ -1,4 +1,4 @@
-// The search on functions whose least is known, the cube of parameters, what the objective weighs and when a winner is real.
+// The search on functions with a known minimum, the parameter space, the objective, and acceptance on held-out scenes.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 evaluate::Candidate hand(const char* method, const char* preset = "default") { return evaluate::candidates({method}, {preset}, {})[0]; }
 
-TEST(Search, findsTheLeastOfABowlAndIsTheSameForASeed) {
+TEST(Search, findsTheMinimumOfABowlDeterministically) {
     const auto run = [](uint32_t seed, std::vector<std::vector<double>>& asked) {
         return search({0.9, 0.1, 0.5}, 150, seed, [&](const std::vector<double>& p) -> Answer {
             asked.push_back(p);
@@ -31,7 +31,7 @@ TEST(Search, findsTheLeastOfABowlAndIsTheSameForASeed) {
     EXPECT_EQ(first, second);
 }
 
-TEST(Search, endsWhereWholeNumbersLeaveNothingNew) {
+TEST(Search, endsWhenAllIntegersAreTried) {
     size_t calls = 0;
     const std::vector<double> best = search({1.0}, 20, 1, [&](const std::vector<double>& p) -> Answer { return {std::round(p[0]), ++calls == 1}; });
     EXPECT_LT(best[0], 0.5);
@@ -52,7 +52,7 @@ TEST(Space, startsAtThePresetAndStaysInRange) {
     EXPECT_THROW(Space(start, {"stepz"}), app::Complaint);
 }
 
-TEST(Space, withoutNamesItIsTheNumbersOfTheMethodsOwn) {
+TEST(Space, defaultsToTheNumericParametersOfTheMethod) {
     for (const char* method : {"hbao", "layered", "hybrid", "far_field"}) {
         const Space space(hand(method), {});
         for (const std::string& setting : space.at(std::vector<double>(space.size(), 1.0)).settings) {
@@ -63,7 +63,7 @@ TEST(Space, withoutNamesItIsTheNumbersOfTheMethodsOwn) {
     }
 }
 
-TEST(Objective, timeAndFlickerCostOnlyBeyondWhatTheyMayBe) {
+TEST(Objective, timeAndFlickerCostOnlyBeyondTheirLimits) {
     const Limits limits{1.0, 1.05};
     EXPECT_DOUBLE_EQ(objective({0.8, 1.0, 0.9, {}, {}}, limits), 0.8);
     EXPECT_GT(objective({0.8, 1.0, 1.2, {}, {}}, limits), 1.0);
@@ -71,7 +71,7 @@ TEST(Objective, timeAndFlickerCostOnlyBeyondWhatTheyMayBe) {
     EXPECT_DOUBLE_EQ(objective({0.8, 1.0, 1.9, {}, {}}, {2.0, 1.05}), 0.8);
 }
 
-TEST(Tuned, isRealOnlyWhereItNeverTrained) {
+TEST(Tuned, isAcceptedOnlyByHeldOutScenes) {
     Tuned t{hand("hbao"), hand("hbao"), {}, {}, {}, 1.0, 1.0, {"sponza@4 q", "sponza@4 e", "dragon@4 q"}};
     const Limits limits;
     t.heldOut = {0.95, 1.0, 1.0, {0.94, 0.94, 0.97}, {}};
@@ -86,7 +86,7 @@ TEST(Tuned, isRealOnlyWhereItNeverTrained) {
     EXPECT_FALSE(t.real(limits));
 }
 
-TEST(Tuned, presetsHoldWhatDiffersFromTheInitialValues) {
+TEST(Tuned, presetTextListsNonInitialValues) {
     evaluate::Candidate candidate = hand("hbao", "8x4");
     candidate.values.set("spacing", 0.35f);
     EXPECT_EQ(presetText(candidate), "{\"directions\", 8}, {\"steps\", 4}, {\"spacing\", 0.35f}");

@@ -1,4 +1,4 @@
-// The library's pure parts: falloffs, parameter tables, views read off projection matrices.
+// The library without a GPU: falloffs, parameter tables, views from projection matrices.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,7 +11,7 @@
 namespace obscura::ao {
 namespace {
 
-TEST(Falloff, parsesWhatItsNameSays) {
+TEST(Falloff, parsesItsText) {
     Falloff f;
     ASSERT_TRUE(parseFalloff("quadratic:2", f));
     EXPECT_EQ(f.kind, FalloffKind::quadratic);
@@ -38,7 +38,7 @@ TEST(Falloff, valuesByFormula) {
     }
 }
 
-TEST(Registry, tablesAreWhole) {
+TEST(Registry, tablesAreConsistent) {
     std::set<std::string> ids;
     for (const MethodInfo* info : methods()) {
         EXPECT_TRUE(ids.insert(info->id).second) << info->id << " twice";
@@ -71,7 +71,7 @@ TEST(Registry, valuesAreClampedAndRounded) {
     EXPECT_FALSE(values.set("nothing", 1.0f));
 }
 
-// A projection and what a point must become in it.
+// A projection, and the expected projection of a point.
 struct Convention {
     const char* name;
     float m[16];  // columns
@@ -87,7 +87,7 @@ const Convention kConventions[] = {
     {"orthographic reversed", {0.2f, 0, 0, 0, 0, -0.25f, 0, 0, 0, 0, 1 / (far_ - n), 0, 0, 0, far_ / (far_ - n), 1}},
 };
 
-TEST(View, readsEveryDepthConventionOffTheMatrix) {
+TEST(View, readsEveryDepthConventionFromTheMatrix) {
     for (const Convention& c : kConventions) {
         Frame frame;
         frame.size = {200, 120};
@@ -114,7 +114,7 @@ TEST(View, readsEveryDepthConventionOffTheMatrix) {
     }
 }
 
-TEST(View, refusesWhatIsNoProjection) {
+TEST(View, refusesInvalidProjections) {
     Frame frame;
     shared::View view;
     const char* reason = nullptr;
@@ -127,9 +127,9 @@ TEST(View, refusesWhatIsNoProjection) {
     EXPECT_NE(std::string(reason).find("guard"), std::string::npos);
 }
 
-// What shaders ask of a device is what DeviceDesc::device says has to be on.
-TEST(Shaders, wantNoFeatureThatTheHeaderDoesNotName) {
-    constexpr uint32_t kCapability = 17, kShader = 1, kExtendedFormats = 49, kQuery = 50;  // SPIR-V's numbers; the query needs no feature
+// Shaders use only the features that DeviceDesc::device lists.
+TEST(Shaders, useOnlyTheFeaturesNamedInTheHeader) {
+    constexpr uint32_t kCapability = 17, kShader = 1, kExtendedFormats = 49, kQuery = 50;  // SPIR-V capabilities; image queries need no feature
     const std::set<uint32_t> stated{kShader, kExtendedFormats, kQuery};
     EXPECT_GT(shaders().size(), 30u);
     for (const gpu::EmbeddedShader& shader : shaders())

@@ -1,4 +1,4 @@
-// The render graph's plan, compared as text: what each hazard asks for, and nothing more.
+// The render graph's plan, compared as text: the barriers of each hazard, slots, culling, memory.
 #include <gtest/gtest.h>
 
 #include "graph/plan.h"
@@ -9,20 +9,29 @@ namespace {
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kFragment = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 
-// A recording in few words.
+// Builds a recording.
 struct Sketch {
     Recording recording;
 
     uint32_t image(const char* name, uint32_t mips = 1, VkFormat format = VK_FORMAT_R32_SFLOAT) {
-        recording.resources.push_back({name, Kind::transient, {format, 64, 64, 1, mips, 0}, {}, Access::none, VK_IMAGE_LAYOUT_UNDEFINED, false});
-        return uint32_t(recording.resources.size() - 1);
+        return add({.name = name, .desc = {format, 64, 64, 1, mips, 0}});
     }
     uint32_t imported(const char* name, State state, bool output = false) {
-        recording.resources.push_back({name, Kind::imported, {VK_FORMAT_R32_SFLOAT, 64, 64, 1, 1, 0}, {state}, Access::none, VK_IMAGE_LAYOUT_UNDEFINED, output});
-        return uint32_t(recording.resources.size() - 1);
+        return add({.name = name, .origin = Origin::imported, .desc = {VK_FORMAT_R32_SFLOAT, 64, 64, 1, 1, 0}, .initial = {state}, .output = output});
     }
+    uint32_t history(const char* name, State state, bool output) {
+        const uint32_t index = imported(name, state, output);
+        recording.resources[index].origin = Origin::history;
+        return index;
+    }
+    // Imported.
     uint32_t buffer(const char* name, State state = {}) {
-        recording.resources.push_back({name, Kind::buffer, {}, {state}, Access::none, VK_IMAGE_LAYOUT_UNDEFINED, false});
+        return add({.name = name, .origin = Origin::imported, .isBuffer = true, .bytes = 64, .initial = {state}});
+    }
+    uint32_t scratch(const char* name, uint64_t bytes) { return add({.name = name, .isBuffer = true, .bytes = bytes}); }
+    uint32_t upload(const char* name, uint64_t bytes) { return add({.name = name, .origin = Origin::upload, .isBuffer = true, .bytes = bytes}); }
+    uint32_t add(Resource resource) {
+        recording.resources.push_back(std::move(resource));
         return uint32_t(recording.resources.size() - 1);
     }
     void pass(const char* name, std::vector<Use> uses, bool keep = false) { recording.passes.push_back({name, std::move(uses), keep}); }
@@ -90,7 +99,7 @@ TEST(Plan, writeAfterWriteIsOrderedAndFlushed) {
     EXPECT_EQ(s.text(), "first\nsecond\n  a: compute(write) > compute(write)\n");
 }
 
-TEST(Plan, readAfterReadNeedsNothing) {
+TEST(Plan, readAfterReadNeedsNoBarrier) {
     Sketch s;
     const uint32_t a = s.imported("a", {VK_IMAGE_LAYOUT_GENERAL});
     s.pass("first", {read(a)}, true);
@@ -113,7 +122,7 @@ TEST(Plan, mipChainKeepsEachMipsState) {
               "image 0: a\n");
 }
 
-TEST(Plan, transientsOfEqualDescriptionShareAnImageWhenTheirLivesDoNotMeet) {
+TEST(Plan, transientsOfEqualDescriptionAndDisjointLifetimesShareAnImage) {
     Sketch s;
     const uint32_t a = s.image("a"), b = s.image("b"), c = s.image("c"), d = s.image("d", 1, VK_FORMAT_R8_UNORM);
     s.pass("a", {write(a)});
@@ -128,7 +137,7 @@ TEST(Plan, transientsOfEqualDescriptionShareAnImageWhenTheirLivesDoNotMeet) {
               "image 0: a c\nimage 1: b\nimage 2: d\n");
 }
 
-TEST(Plan, nextFrameWaitsForTheReadersOfTheLast) {
+TEST(Plan, nextFrameWaitsForReadersOfThePrevious) {
     Sketch s;
     const uint32_t a = s.image("a");
     s.pass("make", {write(a)});
@@ -140,14 +149,14 @@ TEST(Plan, nextFrameWaitsForTheReadersOfTheLast) {
               "image 0: a\n");
 }
 
-TEST(Plan, historyComesInAsItWasLeft) {
+TEST(Plan, historyKeepsItsStateBetweenFrames) {
     Sketch s;
     State left;
     left.layout = VK_IMAGE_LAYOUT_GENERAL;
     left.writeStages = kCompute;
     left.writeAccess = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    const uint32_t previous = s.imported("history.previous", left);
-    const uint32_t current = s.imported("history", {VK_IMAGE_LAYOUT_GENERAL, kCompute, 0, kCompute, {}}, true);
+    const uint32_t previous = s.history("history.previous", left, false);
+    const uint32_t current = s.history("history", {VK_IMAGE_LAYOUT_GENERAL, kCompute, 0, kCompute, {}}, true);
     s.pass("blend", {sample(previous), write(current)});
     const Plan result = plan(s.recording);
     EXPECT_EQ(result.text(s.recording),
@@ -157,7 +166,7 @@ TEST(Plan, historyComesInAsItWasLeft) {
     EXPECT_EQ(result.finalStates[previous][0].layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
-TEST(Plan, passesNobodyReadsAreCulled) {
+TEST(Plan, unreadPassesAreCulled) {
     Sketch s;
     const uint32_t a = s.image("a"), b = s.image("b");
     const uint32_t out = s.imported("out", {}, true);
@@ -170,7 +179,7 @@ TEST(Plan, passesNobodyReadsAreCulled) {
               "culled unused\nimage 0: a\n");
 }
 
-TEST(Plan, hostImagesGoBackInTheLayoutGiven) {
+TEST(Plan, hostImagesReturnToTheirLayout) {
     Sketch s;
     State given{VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, 0, {}};
     const uint32_t a = s.imported("depth", given);
@@ -181,7 +190,7 @@ TEST(Plan, hostImagesGoBackInTheLayoutGiven) {
               "end\n  depth: compute(-) > all(anyRead+anyWrite) sampled>other\n");
 }
 
-TEST(Plan, readingWhatNobodyWroteIsAProblemThatNamesPassAndImage) {
+TEST(Plan, readingAnUnwrittenImageIsAProblem) {
     Sketch s;
     const uint32_t a = s.image("a");
     s.pass("use", {read(a)}, true);
@@ -190,7 +199,73 @@ TEST(Plan, readingWhatNobodyWroteIsAProblemThatNamesPassAndImage) {
     EXPECT_EQ(result.problems[0], "pass 'use' reads 'a' before anything wrote it");
 }
 
-TEST(Plan, samePlanTwice) {
+TEST(Plan, transientBuffersOfEqualSizeAndDisjointLifetimesShareABuffer) {
+    Sketch s;
+    const uint32_t a = s.scratch("a", 256), b = s.scratch("b", 256), c = s.scratch("c", 256), d = s.scratch("d", 512);
+    s.pass("a", {write(a)});
+    s.pass("b", {read(a), write(b)});
+    s.pass("c", {read(b), write(c)});
+    s.pass("d", {read(c), write(d)}, true);
+    EXPECT_EQ(s.text(),
+              "a\n"
+              "b\n  a: compute(write) > compute(read)\n"
+              "c\n  b: compute(write) > compute(read)\n  c: compute(write) > compute(write)\n"
+              "d\n  c: compute(write) > compute(read)\n"
+              "buffer 0: a c\nbuffer 1: b\nbuffer 2: d\n");
+}
+
+TEST(Plan, slotsOfAnEarlierFrameAreReused) {
+    Sketch s;
+    const uint32_t a = s.image("a"), b = s.scratch("b", 256);
+    s.pass("a", {write(a)});
+    s.pass("b", {read(a), write(b)}, true);
+    const Plan first = plan(s.recording);
+    const Plan second = plan(s.recording, first.slots);
+    EXPECT_EQ(second.slots.size(), 2u);
+    EXPECT_EQ(second.slotOf, first.slotOf);
+}
+
+TEST(Plan, readingAnUnwrittenBufferIsAProblem) {
+    Sketch s;
+    const uint32_t a = s.scratch("a", 256);
+    s.pass("use", {read(a)}, true);
+    EXPECT_EQ(plan(s.recording).problems, std::vector<std::string>{"pass 'use' reads 'a' before anything wrote it"});
+}
+
+TEST(Plan, uploadsAreAlignedAndPackedIntoChunks) {
+    Sketch s;
+    const uint32_t a = s.upload("a", 4), b = s.upload("b", 300), large = s.upload("large", 1 << 20), c = s.upload("c", 256);
+    const Plan result = plan(s.recording);
+    EXPECT_EQ(result.chunks, (std::vector<uint64_t>{256 << 10, 1 << 20}));
+    const auto at = [&](uint32_t i) { return std::pair(result.placements[i].chunk, result.placements[i].offset); };
+    EXPECT_EQ(at(a), std::pair(0u, uint64_t(0)));
+    EXPECT_EQ(at(b), std::pair(0u, uint64_t(256)));
+    EXPECT_EQ(at(large), std::pair(1u, uint64_t(0)));
+    EXPECT_EQ(at(c), std::pair(0u, uint64_t(768)));
+    // Existing upload chunks are reused.
+    EXPECT_EQ(plan(s.recording, {}, result.chunks).chunks, result.chunks);
+}
+
+TEST(Plan, memoryCountsPoolHistoriesAndUploadsOfEveryFrame) {
+    Sketch s;
+    const uint32_t a = s.image("a"), b = s.image("b"), c = s.image("c"), unused = s.image("unused"), table = s.scratch("table", 1000);
+    const uint32_t previous = s.history("history.previous", {}, false), current = s.history("history", {}, true);
+    const uint32_t block = s.upload("block", 16);
+    s.pass("a", {write(a), read(block), write(table)});
+    s.pass("b", {read(a), write(b), read(table)});
+    s.pass("c", {read(b), write(c)});
+    s.pass("culled", {read(c), write(unused)});
+    s.pass("blend", {read(c), sample(previous), write(current)});
+    const Plan result = plan(s.recording);
+    EXPECT_TRUE(result.problems.empty());
+    const MemoryOf memory{[](const gpu::ImageDesc& desc) { return uint64_t(desc.width) * desc.height * 4; },
+                          [](uint64_t size, VkBufferUsageFlags, gpu::Memory) { return size; }};
+    const uint64_t image = 64 * 64 * 4;
+    EXPECT_EQ(bytes(s.recording, result, 3, memory), 2 * image + 1000 + 2 * image + 3 * (256 << 10));  // c shares the slot of a
+    EXPECT_EQ(result.text(s.recording).find("unused"), std::string::npos);
+}
+
+TEST(Plan, planIsDeterministic) {
     Sketch s;
     const uint32_t a = s.image("a"), b = s.image("b");
     s.pass("a", {write(a)});

@@ -1,5 +1,5 @@
-// The work of voxelization, counted: cells, bytes, objects that are redone, steps of a progress bar. The times that go with it are told by the
-// game when it ends: obscura --headless --scene sponza --toys 8 --method hybrid --frames 60
+// The work of voxelization, counted: cells, bytes, revoxelized objects, progress steps. The game prints the times when it ends:
+// obscura --headless --scene sponza --toys 8 --method hybrid --frames 60
 #include <algorithm>
 #include <cstdlib>
 
@@ -13,11 +13,11 @@
 namespace obscura::test {
 namespace {
 
-// Cells of half the size: four times as many on a surface, up to eight where there are many small triangles. Bytes follow the cells, not the
-// window's volume.
-TEST(VoxelWork, followsTheSurfaceOfSponza) {
+// Halving the cell size gives four times as many cells on a surface, up to eight with many small triangles. Bytes follow the number of
+// cells, not the volume of the window.
+TEST(VoxelWork, scalesWithTheSurfaceOfSponza) {
     const std::filesystem::path file = contentFolder() / "sponza/512/Sponza.gltf";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
     scene::World world;
     world.add({.model = scene::loadGltf(file, {.loadImages = false})});
     voxel::Posed all;
@@ -46,7 +46,7 @@ TEST(VoxelWork, followsTheSurfaceOfSponza) {
 
 TEST(VoxelWork, sponzaIsRasterisedOnce) {
     const std::filesystem::path file = contentFolder() / "sponza/512/Sponza.gltf";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
     scene::World world;
     world.add({.model = scene::loadGltf(file, {.loadImages = false})});
     Folder folder;
@@ -61,10 +61,10 @@ TEST(VoxelWork, sponzaIsRasterisedOnce) {
     EXPECT_EQ(cells[1], cells[0]);
 }
 
-// Of a hall with eight walking toasters, a frame redoes what walks and sends the bricks that changed: a small part of the window.
-TEST(VoxelWork, aFrameOfEightWalkingToastersLeavesTheHallAlone) {
+// In a hall with eight walking toasters a frame revoxelizes only the toasters and sends the changed bricks, a small part of the window.
+TEST(VoxelWork, walkingToastersDoNotRevoxelizeTheHall) {
     const std::filesystem::path hall = contentFolder() / "sponza/512/Sponza.gltf", toys = contentFolder() / "toasters/toasters_nodes.glb";
-    if (!std::filesystem::exists(hall) || !std::filesystem::exists(toys)) GTEST_SKIP() << hall << " or " << toys << " is not there";
+    if (!std::filesystem::exists(hall) || !std::filesystem::exists(toys)) GTEST_SKIP() << hall << " or " << toys << " is missing";
     scene::World world;
     world.add({.model = scene::loadGltf(hall, {.loadImages = false})});
     const auto toy = scene::loadGltf(toys, {.loadImages = false});
@@ -93,12 +93,12 @@ TEST(VoxelWork, aFrameOfEightWalkingToastersLeavesTheHallAlone) {
         EXPECT_LT(now.objectCells, now.resting.cells / 10) << frame;
     }
     std::nth_element(bytes.begin(), bytes.begin() + long(bytes.size() / 2), bytes.end());
-    fmt::print("eight toasters in {} objects of {} cells: {:.1f} KiB changed a frame, the median\n", first.objects, first.objectCells,
+    fmt::print("eight toasters in {} objects of {} cells: {:.1f} KiB changed per frame (median)\n", first.objects, first.objectCells,
                double(bytes[bytes.size() / 2]) / 1024.0);
     EXPECT_LT(bytes[bytes.size() / 2], first.windowBytes / 100);
 }
 
-TEST(VoxelWork, progressMovesInSteps) {
+TEST(VoxelWork, progressIsReportedInSteps) {
     Soup soup = randomSoup(200000, 5.0f, 0.05f);
     const std::vector<uint32_t> once = soup.indices;
     for (int i = 0; i < 10; ++i) soup.indices.insert(soup.indices.end(), once.begin(), once.end());  // 2.2 million triangles
@@ -115,7 +115,7 @@ TEST(VoxelWork, progressMovesInSteps) {
 }
 
 TEST(VoxelWork, tenMillionTriangles) {
-    if (!std::getenv("OBSCURA_LONG_TESTS")) GTEST_SKIP() << "set OBSCURA_LONG_TESTS to run it: a gigabyte, half a minute";
+    if (!std::getenv("OBSCURA_LONG_TESTS")) GTEST_SKIP() << "set OBSCURA_LONG_TESTS to run it: needs 1 GB and 30 s";
     scene::World world;
     world.add({.model = modelOf(randomSoup(10000000, 15.0f, 0.05f))});
     voxel::Voxels voxels({.cells = 256});

@@ -1,4 +1,4 @@
-// The rasteriser against a triangle cut by the box's six planes: another way to the same answer.
+// The voxel rasteriser against an independent test: clipping each triangle by the six planes of a cell.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 namespace obscura::test {
 namespace {
 
-// Whether anything of the triangle is left inside the cell, grown by `margin` on each side.
+// Whether the triangle intersects the cell, enlarged by `margin` on each side.
 bool cutOverlaps(const glm::dvec3* triangle, const glm::ivec3& cell, double margin) {
     std::vector<glm::dvec3> polygon(triangle, triangle + 3);
     for (int axis = 0; axis < 3; ++axis)
@@ -27,7 +27,7 @@ bool cutOverlaps(const glm::dvec3* triangle, const glm::ivec3& cell, double marg
     return true;
 }
 
-// Every cell of the bounds and one around them; cells that are only just touched may go either way.
+// Tests every cell of the bounds and one around them; cells within the margin may be set or not.
 void expectExact(const Soup& soup, double cellSize) {
     for (size_t t = 0; t < soup.indices.size(); t += 3) {
         Soup one;
@@ -48,20 +48,20 @@ void expectExact(const Soup& soup, double cellSize) {
                 for (cell.z = int(std::floor(low.z)) - 1; cell.z <= int(std::floor(high.z)) + 1; ++cell.z) {
                     const bool set = bricks.test(cell);
                     seen += set;
-                    if (set) ASSERT_TRUE(cutOverlaps(p, cell, 1e-5)) << "triangle " << t / 3 << ", cell " << cell.x << ' ' << cell.y << ' ' << cell.z << " is too many";
+                    if (set) ASSERT_TRUE(cutOverlaps(p, cell, 1e-5)) << "triangle " << t / 3 << ", cell " << cell.x << ' ' << cell.y << ' ' << cell.z << " is set but not touched";
                     else ASSERT_FALSE(cutOverlaps(p, cell, -1e-5)) << "triangle " << t / 3 << ", cell " << cell.x << ' ' << cell.y << ' ' << cell.z << " is missing";
                 }
         ASSERT_EQ(bricks.cells(), seen) << "cells far from the triangle";
     }
 }
 
-TEST(Rasterise, randomTrianglesFillWhatTheyTouch) {
+TEST(Rasterise, randomTrianglesFillTouchedCells) {
     expectExact(randomSoup(600, 4.0f, 0.3f, 1), 0.1);    // a few cells
     expectExact(randomSoup(150, 20.0f, 3.0f, 2), 0.1);   // tens of cells
     expectExact(randomSoup(150, 2000.0f, 1.0f, 3), 0.05);  // far from the origin
 }
 
-TEST(Rasterise, triangleOfAnyDirectionFillsWhatItTouches) {
+TEST(Rasterise, trianglesOfAnyOrientationFillTouchedCells) {
     Soup soup;
     for (int axis = 0; axis < 3; ++axis) {  // across an axis, within a cell and on the cells' boundary
         glm::vec3 a(0.13f), b(0.13f), c(0.13f);
@@ -73,13 +73,13 @@ TEST(Rasterise, triangleOfAnyDirectionFillsWhatItTouches) {
     }
     soup.add({0.05f, 0.05f, 0.05f}, {2.05f, 2.05f, 2.05f}, {2.05f, 2.05f, 0.05f});       // on a diagonal plane
     soup.add({0.01f, 0.02f, 0.03f}, {3.01f, 2.02f, 1.03f}, {3.01f, 2.02f, 1.0300002f});  // a sliver
-    soup.add({0.01f, 0.02f, 0.03f}, {1.01f, 3.02f, 2.03f}, {0.51f, 1.52f, 1.03f});       // three points of a line
-    soup.add({0.01f, 0.02f, 0.03f}, {0.01f, 0.02f, 0.03f}, {0.9f, -1.2f, 2.03f});        // an edge of no length
+    soup.add({0.01f, 0.02f, 0.03f}, {1.01f, 3.02f, 2.03f}, {0.51f, 1.52f, 1.03f});       // three collinear points
+    soup.add({0.01f, 0.02f, 0.03f}, {0.01f, 0.02f, 0.03f}, {0.9f, -1.2f, 2.03f});        // an edge of length 0
     soup.add({0.31f, 0.02f, 0.03f}, {0.31f, 0.02f, 0.03f}, {0.31f, 0.02f, 0.03f});       // a point
     expectExact(soup, 0.1);
 }
 
-TEST(Rasterise, cellsBothSidesOfATouchedBoundary) {
+TEST(Rasterise, bothCellsOfATouchedBoundaryAreSet) {
     Soup soup;
     soup.add({-0.25f, 0.5f, -0.25f}, {0.25f, 0.5f, -0.25f}, {-0.25f, 0.5f, 0.25f});
     voxel::BrickSet bricks;
@@ -87,17 +87,17 @@ TEST(Rasterise, cellsBothSidesOfATouchedBoundary) {
     EXPECT_EQ(cellsOf(bricks), (Cells{{0, 0, 0}, {0, 1, 0}}));
 }
 
-// A closed surface of many small triangles, or of few large ones, lets no path over cell faces through, thin as its shell is.
-TEST(Rasterise, thinShellsAreTight) {
+// The thin shell of a closed surface is watertight for paths across cell faces, for any size of triangle.
+TEST(Rasterise, thinShellsAreWatertight) {
     constexpr float kPi = 3.14159265f;
-    for (const int parts : {5, 14, 60}) {
+    for (const int segments : {5, 14, 60}) {
         Soup ball;
         const auto point = [&](int i, int k) {
-            const float up = kPi * float(i) / float(parts), around = 2.0f * kPi * float(k) / float(parts);
+            const float up = kPi * float(i) / float(segments), around = 2.0f * kPi * float(k) / float(segments);
             return glm::vec3(0.03f, -0.21f, 0.11f) + 1.3f * glm::vec3(std::sin(up) * std::cos(around), std::cos(up), std::sin(up) * std::sin(around));
         };
-        for (int i = 0; i < parts; ++i)
-            for (int k = 0; k < parts; ++k) {
+        for (int i = 0; i < segments; ++i)
+            for (int k = 0; k < segments; ++k) {
                 ball.add(point(i, k), point(i + 1, k), point(i + 1, k + 1));
                 ball.add(point(i, k), point(i + 1, k + 1), point(i, k + 1));
             }
@@ -119,12 +119,12 @@ TEST(Rasterise, thinShellsAreTight) {
                 open.push_back(next);
             }
         }
-        EXPECT_FALSE(reached.count({0, -2, 1})) << parts << " parts: the middle was reached";
+        EXPECT_FALSE(reached.count({0, -2, 1})) << segments << " segments: the flood fill reached the middle";
         EXPECT_GT(reached.size(), 40000u);
     }
 }
 
-TEST(Rasterise, manyThreadsMakeTheSameCells) {
+TEST(Rasterise, anyThreadCountGivesTheSameCells) {
     const Soup soup = randomSoup(50000, 10.0f, 0.5f);
     voxel::BrickSet together, alone;
     EXPECT_EQ(voxel::rasterise(soup.triangles(), 0.1, together).triangles, 50000u);
@@ -134,7 +134,7 @@ TEST(Rasterise, manyThreadsMakeTheSameCells) {
     EXPECT_EQ(cellsOf(together), cellsOf(alone));
 }
 
-TEST(Rasterise, brokenVerticesAreCountedAndLeftOut) {
+TEST(Rasterise, invalidVerticesAreCountedAndSkipped) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     Soup soup;
     soup.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -150,8 +150,8 @@ TEST(Rasterise, brokenVerticesAreCountedAndLeftOut) {
     EXPECT_EQ(cellsOf(bricks), cellsOf(first));
 }
 
-// However the surface is cut, no more memory is taken than was allowed, and one line says what would do.
-TEST(Rasterise, tooMuchSurfaceIsRefused) {
+// The memory limit holds for any tessellation, and the error names a cell size that fits.
+TEST(Rasterise, surfaceBeyondTheMemoryLimitIsRefused) {
     Soup wide;
     wide.add({-5e5f, 0, -5e5f}, {5e5f, 0, -5e5f}, {0, 0, 5e5f});
     Soup folded = randomSoup(20000, 500.0f, 50.0f);

@@ -1,4 +1,4 @@
-// What rests: rasterised once, kept on disk, made again when the file is not what it should be.
+// Static geometry: rasterised once, cached on disk, rebuilt if the file is damaged or stale.
 #include <fstream>
 #include <limits>
 
@@ -42,11 +42,11 @@ void expectSameCells(const Resting& a, const Resting& b) {
             for (int z = -48; z < 48; ++z) ASSERT_EQ(a.sparse().test({x, y, z}), b.sparse().test({x, y, z}));
 }
 
-TEST_F(Kept, secondTimeComesFromDisk) {
+TEST_F(Kept, secondBuildReadsTheCache) {
     const Resting first = build();
     EXPECT_FALSE(first.facts().fromCache);
     EXPECT_GT(first.facts().cells, 10000u);
-    ASSERT_EQ(folder.files().size(), 1u);  // and no temporary one
+    ASSERT_EQ(folder.files().size(), 1u);  // and no temporary file
     EXPECT_EQ(folder.files()[0].extension(), ".vdb");
     const Resting second = build();
     EXPECT_TRUE(second.facts().fromCache);
@@ -54,18 +54,18 @@ TEST_F(Kept, secondTimeComesFromDisk) {
     EXPECT_TRUE(lines.empty()) << lines[0];
 }
 
-TEST_F(Kept, anythingElseIsAnotherFile) {
+TEST_F(Kept, otherInputUsesAnotherFile) {
     build();
     EXPECT_FALSE(build(glm::mat4(2.0f)).facts().fromCache);
     EXPECT_FALSE(build(glm::mat4(1.0f), 0.25).facts().fromCache);
     model = modelOf(randomSoup(3000, 4.0f, 0.8f));
-    EXPECT_TRUE(build().facts().fromCache);  // other objects, same triangles
+    EXPECT_TRUE(build().facts().fromCache);  // other instances, same triangles
     model->meshes[0].primitives[0].positions[17].x += 0.5f;
     EXPECT_FALSE(build().facts().fromCache);
     EXPECT_EQ(folder.files().size(), 4u);
 }
 
-TEST_F(Kept, damagedFileIsMadeAgainWithALine) {
+TEST_F(Kept, damagedFileIsRebuiltWithALogLine) {
     const Resting whole = build();
     const std::filesystem::path file = folder.files().at(0);
     std::ifstream in(file, std::ios::binary);
@@ -85,10 +85,10 @@ TEST_F(Kept, damagedFileIsMadeAgainWithALine) {
         EXPECT_EQ(again.facts().cells, whole.facts().cells);
     }
     lines.clear();
-    EXPECT_TRUE(build().facts().fromCache);  // mended
+    EXPECT_TRUE(build().facts().fromCache);  // replaced
 }
 
-TEST_F(Kept, fileOfAnotherWorldIsStale) {
+TEST_F(Kept, fileOfAnotherWorldIsRebuilt) {
     build();
     const std::filesystem::path first = folder.files().at(0);
     const Resting other = build(glm::mat4(2.0f));
@@ -101,7 +101,7 @@ TEST_F(Kept, fileOfAnotherWorldIsStale) {
     expectSameCells(other, again);
 }
 
-TEST_F(Kept, folderThatCannotBeWrittenIsSaid) {
+TEST_F(Kept, unwritableFolderIsReported) {
     std::ofstream(folder.path() / "file") << "x";
     Resting::Options chosen = options();
     chosen.cache = folder.path() / "file" / "below";
@@ -114,7 +114,7 @@ TEST_F(Kept, folderThatCannotBeWrittenIsSaid) {
     EXPECT_NE(lines[0].find("without a cache"), std::string::npos) << lines[0];
 }
 
-TEST_F(Kept, holdsUntilSomethingThatRestsMoves) {
+TEST_F(Kept, isValidUntilStaticGeometryMoves) {
     scene::World world;
     const uint32_t id = world.add({.model = model});
     Resting resting;
@@ -125,17 +125,17 @@ TEST_F(Kept, holdsUntilSomethingThatRestsMoves) {
     Soup small;
     small.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     world.add({.model = modelOf(small)});
-    EXPECT_TRUE(resting.holds(world, chosen.picked));  // carried along as an object
+    EXPECT_TRUE(resting.holds(world, chosen.picked));  // the new instance is a dynamic object
     world.instances()[0].placement[3].x = 1.0f;
     EXPECT_FALSE(resting.holds(world, chosen.picked));
     resting.build(world, 0.0f, chosen);
     EXPECT_TRUE(resting.holds(world, chosen.picked));
     EXPECT_FALSE(resting.contains(id, {}));
     world.instances()[0].placement[3].x = 2.0f;
-    EXPECT_TRUE(resting.holds(world, chosen.picked));  // restless: no second building
+    EXPECT_TRUE(resting.holds(world, chosen.picked));  // instance 0 is dynamic now, so nothing is rebuilt
 }
 
-// ---- Bad input: a clear line or a sound result -----------------------------------------------------------------------
+// ---- Invalid input ----------------------------------------------------------------------------------------------------
 
 TEST_F(Kept, hugeWorldGetsLargerCells) {
     Soup soup;
@@ -149,7 +149,7 @@ TEST_F(Kept, hugeWorldGetsLargerCells) {
     EXPECT_NE(lines[0].find("too large"), std::string::npos) << lines[0];
 }
 
-TEST_F(Kept, oneTriangleAndNone) {
+TEST_F(Kept, oneTriangleAndEmptyWorld) {
     Soup soup;
     soup.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     model = modelOf(soup);
@@ -165,7 +165,7 @@ TEST_F(Kept, oneTriangleAndNone) {
     EXPECT_TRUE(resting.holds(empty, {}));
 }
 
-TEST_F(Kept, brokenVerticesAreSaidOnce) {
+TEST_F(Kept, invalidVerticesAreReportedOnce) {
     Soup soup = randomSoup(100, 2.0f, 0.5f);
     soup.positions[7].x = std::numeric_limits<float>::quiet_NaN();
     soup.positions[70].y = std::numeric_limits<float>::infinity();

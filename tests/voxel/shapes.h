@@ -1,4 +1,4 @@
-// Triangles and worlds for the voxels' tests.
+// Fixture: triangles and worlds for voxel tests.
 #pragma once
 
 #include <cmath>
@@ -69,7 +69,7 @@ inline Cells cellsOf(const voxel::BrickSet& bricks) {
     return cells;
 }
 
-// A folder for one test, gone afterwards.
+// A temporary folder for one test.
 class Folder {
 public:
     Folder() {

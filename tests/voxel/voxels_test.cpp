@@ -1,4 +1,4 @@
-// The door: a caller's copy, kept by what changes, against a world voxelized from nothing.
+// voxel::Voxels: a copy maintained by its changes against a complete voxelization.
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace {
 using voxel::Change;
 using voxel::Voxels;
 
-// What the GPU would hold.
+// The copy that the GPU would hold.
 struct Copy {
     std::vector<voxel::Brick> bricks;
     glm::ivec3 origin{0};
@@ -64,7 +64,7 @@ scene::World busyWorld() {
     return world;
 }
 
-TEST(Voxels, changesAddUpToTheWholeWorld) {
+TEST(Voxels, changesAddUpToACompleteVoxelization) {
     scene::World world = busyWorld();
     Voxels voxels(small());
     Copy copy;
@@ -74,10 +74,10 @@ TEST(Voxels, changesAddUpToTheWholeWorld) {
         if (step == 6) dropped = world.add(instanceOf(turningCube(), {-0.5f, 0.6f, 0.8f}));
         if (step == 9) world.instances().back().placement = glm::translate(glm::mat4(1.0f), {0.3f, 0.4f, 0.5f});
         if (step == 14) world.remove(dropped);
-        if (step == 18) world.instances()[0].placement = glm::rotate(glm::mat4(1.0f), 0.2f, glm::vec3(1, 0, 0));  // the floor, which rested
+        if (step == 18) world.instances()[0].placement = glm::rotate(glm::mat4(1.0f), 0.2f, glm::vec3(1, 0, 0));  // the floor, static so far
         const glm::vec3 eye(3.0f * std::sin(0.7f * float(step)), 1.0f, 0.4f * float(step));
         copy.apply(voxels.update(world, time, eye, Voxels::Wait::exact));
-        // Cell for cell: of what rests by then and what does not, a world made from nothing knows another share.
+        // From step 18 on a complete voxelization assigns the floor to another set, so only the number of cells is compared.
         Copy fresh = fromNothing(world, time, eye);
         if (step < 18) expectSame(copy, fresh, step);
         ASSERT_EQ(copy.cells(), fresh.cells()) << step;
@@ -85,7 +85,7 @@ TEST(Voxels, changesAddUpToTheWholeWorld) {
     EXPECT_GT(copy.cells(), 2000u);
 }
 
-TEST(Voxels, onlyWhatMovedIsRedone) {
+TEST(Voxels, onlyMovedObjectsAreRevoxelized) {
     scene::World world = busyWorld();
     Voxels voxels(small());
     voxels.update(world, 0.5f, glm::vec3(0.0f), Voxels::Wait::exact);
@@ -99,7 +99,7 @@ TEST(Voxels, onlyWhatMovedIsRedone) {
     EXPECT_LT(later.bricks.size() * 64, voxels.statistics().windowBytes / 4);
 }
 
-// Not waited for, the worker brings the frame before: what update() returns is the world of the call before.
+// Without waiting, update() returns the world of the previous call.
 TEST(Voxels, latestIsOneFrameBehind) {
     const scene::World world = busyWorld();
     Voxels voxels(small());
@@ -108,7 +108,7 @@ TEST(Voxels, latestIsOneFrameBehind) {
     EXPECT_TRUE(copy.bricks.empty());
     for (int step = 1; step < 8; ++step) {
         uint64_t late = voxels.statistics().late;
-        do {  // a machine under load may be late; then nothing has changed
+        do {  // on a loaded machine the worker may be late; then nothing has changed
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
             late = voxels.statistics().late;
             copy.apply(voxels.update(world, 0.2f * float(step), glm::vec3(0.0f), Voxels::Wait::latest));
@@ -117,27 +117,27 @@ TEST(Voxels, latestIsOneFrameBehind) {
     }
 }
 
-// A named pipe in place of a cache file: who reads it waits until the test lets go, or for a minute, so that a mistake fails and does not
-// hang.
-class HeldFile {
+// A named pipe in place of a cache file. A reader waits until unblock(), or for one minute, so that an error fails the test instead of
+// hanging.
+class BlockedFile {
 public:
-    HeldFile(std::filesystem::path file, std::string bytes) : m_file(std::move(file)), m_bytes(std::move(bytes)) {
+    BlockedFile(std::filesystem::path file, std::string bytes) : m_file(std::move(file)), m_bytes(std::move(bytes)) {
         std::filesystem::remove(m_file);
         EXPECT_EQ(::mkfifo(m_file.c_str(), 0600), 0);
         m_thread = std::thread([this] { serve(); });
     }
-    ~HeldFile() {
-        letGo();
+    ~BlockedFile() {
+        unblock();
         m_thread.join();
     }
-    void letGo() { m_let.store(true); }
+    void unblock() { m_unblocked.store(true); }
 
 private:
     void serve() {
         std::signal(SIGPIPE, SIG_IGN);
-        for (int i = 0; i < 6000 && !m_let; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        for (int i = 0; i < 6000 && !m_unblocked; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         int pipe = -1;
-        for (int i = 0; i < 6000 && pipe < 0; ++i) {  // refused until there is a reader
+        for (int i = 0; i < 6000 && pipe < 0; ++i) {  // fails until a reader opens the pipe
             pipe = ::open(m_file.c_str(), O_WRONLY | O_NONBLOCK);
             if (pipe < 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
@@ -152,12 +152,11 @@ private:
     }
     const std::filesystem::path m_file;
     const std::string m_bytes;
-    std::atomic<bool> m_let{false};
+    std::atomic<bool> m_unblocked{false};
     std::thread m_thread;
 };
 
-// The worker is held in the middle of a build, by the file that it reads. Calls return all the same, and bring nothing, until it goes on.
-// How long they wait is told by the game when it ends.
+// While the worker is blocked reading the cache file, calls return without changes. The game prints their waiting time when it ends.
 TEST(Voxels, latestNeverWaitsForABuild) {
     Folder folder;
     scene::World world;
@@ -171,22 +170,22 @@ TEST(Voxels, latestNeverWaitsForABuild) {
     std::ostringstream bytes;
     bytes << std::ifstream(file, std::ios::binary).rdbuf();
 
-    HeldFile held(file, bytes.str());
+    BlockedFile blocked(file, bytes.str());
     Voxels voxels(options);
     voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::latest);
     for (uint64_t i = 1; i <= 20; ++i) {
         const Change& change = voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::latest);
         EXPECT_EQ(change.cells, 0u);
-        ASSERT_EQ(voxels.statistics().late, i) << "a call waited until the build was over";
+        ASSERT_EQ(voxels.statistics().late, i) << "a call waited for the build";
     }
-    held.letGo();
+    blocked.unblock();
     Copy copy;
     while (copy.bricks.empty()) copy.apply(voxels.update(world, 0.0f, glm::vec3(0.0f), Voxels::Wait::latest));
     EXPECT_TRUE(voxels.statistics().resting.fromCache);
     expectSame(copy, whole, 0);
 }
 
-TEST(Voxels, resendBringsEverything) {
+TEST(Voxels, resendReturnsEverything) {
     const scene::World world = busyWorld();
     Voxels voxels(small());
     Copy first, second;
@@ -196,7 +195,7 @@ TEST(Voxels, resendBringsEverything) {
     expectSame(first, second, 0);
 }
 
-TEST(Voxels, worldThatCannotBeHeldIsSaidOnceAndGone) {
+TEST(Voxels, tooLargeWorldIsReportedOnce) {
     scene::World world;
     Soup wide;
     wide.add({-5e5f, 0, -5e5f}, {5e5f, 0, -5e5f}, {0, 0, 5e5f});
@@ -218,7 +217,7 @@ TEST(Voxels, emptyWorldIsAnEmptyWindow) {
     EXPECT_TRUE(change.addresses.empty());
 }
 
-TEST(Voxels, masksAreTakenOrLeft) {
+TEST(Voxels, maskedMaterialsAreOptional) {
     scene::Material masked;
     masked.alphaMode = scene::AlphaMode::mask;
     scene::World world;

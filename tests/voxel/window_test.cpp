@@ -1,4 +1,4 @@
-// A window that moved holds what a new one would, and says no more than what entered.
+// The voxel window: moving it equals rebuilding it, and changes only the bricks that enter.
 #include <random>
 
 #include "shapes.h"
@@ -10,7 +10,7 @@ namespace {
 using voxel::Brick;
 using voxel::Window;
 
-// A world of many bricks, no two alike.
+// A world of many different bricks.
 void noise(const glm::ivec3& place, Brick& out) {
     uint64_t h = uint64_t(uint32_t(place.x) + 1) * 73856093u ^ (uint64_t(uint32_t(place.y)) * 19349663u << 20) ^ (uint64_t(uint32_t(place.z)) * 83492791u << 32);
     for (uint64_t& word : out.words) word |= h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull;
@@ -23,7 +23,7 @@ void expectSame(const Window& moved, const glm::ivec3& origin, const Window::Com
     for (uint32_t address = 0; address < side * side * side; ++address) ASSERT_EQ(moved[address], fresh[address]) << address;
 }
 
-TEST(Window, moveEqualsRebuild) {
+TEST(Window, movedWindowEqualsRebuilt) {
     Window window(64);
     std::mt19937 random(3);
     glm::ivec3 origin(-3, 2, -11);
@@ -34,20 +34,20 @@ TEST(Window, moveEqualsRebuild) {
     }
 }
 
-TEST(Window, moveWritesTheSlabThatEntered) {
+TEST(Window, moveWritesOnlyTheEnteringSlab) {
     Window window(64);
     window.update(glm::ivec3(0), {}, false, noise);
     EXPECT_EQ(window.takeChanged(false).size(), 512u);
     window.update(glm::ivec3(1, 0, 0), {}, false, noise);
     const std::vector<uint32_t> taken = window.takeChanged(false);
     EXPECT_EQ(taken.size(), 64u);
-    for (const uint32_t address : taken) EXPECT_EQ(address / 64, 0u);  // where x = 0 stood, now x = 8
+    for (const uint32_t address : taken) EXPECT_EQ(address / 64, 0u);  // address of x = 0 before, of x = 8 now
     window.update(glm::ivec3(1, 0, 0), {}, false, noise);
     EXPECT_TRUE(window.takeChanged(false).empty());
     EXPECT_EQ(window.takeChanged(true).size(), 512u);
 }
 
-TEST(Window, changesAreWrittenWhereTheyDiffer) {
+TEST(Window, onlyDifferingBricksAreWritten) {
     Window window(64);
     bool second = false;
     const auto compose = [&](const glm::ivec3& place, Brick& out) {
@@ -63,9 +63,9 @@ TEST(Window, changesAreWrittenWhereTheyDiffer) {
     expectSame(window, glm::ivec3(0), compose);
 }
 
-TEST(Window, staysAroundTheEyeAndWithinTheWorld) {
+TEST(Window, isCentredOnTheEyeWithinTheWorld) {
     const glm::vec3 low(-50, 0, -2), high(50, 4, 2);
-    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {0, 1, 0}), glm::ivec3(-4, -1, -2 - 1));  // y, z: the world fits, in the middle
+    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {0, 1, 0}), glm::ivec3(-4, -1, -2 - 1));  // y, z: the world fits, so it is centred
     EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {-50, 1, 0}).x, -50);
     EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {80, 1, 0}).x, 51 - 8);
     const glm::ivec3 far = voxel::windowOrigin(512, 1e-3, glm::vec3(-1e30f), glm::vec3(1e30f), glm::vec3(1e30f));

@@ -1,3 +1,4 @@
+// Arches of the arcade.
 #include "atrium/atrium_parts.h"
 #include "meshkit/shapes.h"
 
@@ -59,7 +60,7 @@ Mesh makeSpandrel()
     return mesh;
 }
 
-/// One wedge of the arch; the keystone stands taller and prouder than the rest.
+/// One wedge of the arch; the keystone is taller and protrudes further than the others.
 Mesh makeVoussoir(int index)
 {
     constexpr float kJoint = 0.0012f;

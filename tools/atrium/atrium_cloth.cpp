@@ -1,3 +1,4 @@
+// Banners and awnings, with morph targets.
 #include "atrium/atrium_parts.h"
 #include "meshkit/shapes.h"
 

@@ -1,3 +1,4 @@
+// Columns, piers and balusters.
 #include "atrium/atrium_parts.h"
 #include "meshkit/shapes.h"
 

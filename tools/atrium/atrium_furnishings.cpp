@@ -1,3 +1,4 @@
+// Pots, plants, benches and the lantern.
 #include "atrium/atrium_parts.h"
 #include "meshkit/image.h"
 #include "meshkit/shapes.h"

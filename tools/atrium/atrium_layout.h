@@ -1,3 +1,4 @@
+// Dimensions and material slots of the atrium.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Meshes of the atrium's building elements and furnishings.
 #pragma once
 
 #include "atrium/atrium_layout.h"

@@ -1,3 +1,4 @@
+// The scene atrium.glb.
 #pragma once
 
 #include "meshkit/scene.h"
@@ -7,7 +8,7 @@ namespace obscura::atrium {
 /// Length of the looping animation in seconds.
 inline constexpr float kDuration = 10.0f;
 
-/// The whole atrium, animated and ready to write.
+/// The whole atrium, animated.
 kit::Scene buildScene();
 
 } // namespace obscura::atrium

@@ -1,3 +1,4 @@
+// Floors, walls and cornices.
 #include "atrium/atrium_parts.h"
 #include "meshkit/shapes.h"
 

@@ -1,3 +1,4 @@
+// Procedural textures of the atrium.
 #pragma once
 
 #include "meshkit/image.h"

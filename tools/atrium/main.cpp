@@ -1,3 +1,4 @@
+// obscura-atrium: writes atrium.glb.
 #include "atrium/atrium_scene.h"
 #include "meshkit/file_output.h"
 #include "meshkit/glb_writer.h"
@@ -17,9 +18,9 @@ int main(int argc, char** argv)
                  "animation 'walk' loops. The same build always writes the same bytes."};
     app.footer("Example:\n  obscura-atrium --out content/atrium.glb");
     std::string out = "content/atrium.glb";
-    app.add_option("-o,--out", out, "File to write; its folder is made if missing")->capture_default_str();
+    app.add_option("-o,--out", out, "File to write; its folder is created if missing")->capture_default_str();
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return "obscura-atrium: " + std::string(error.what()) + "; --help tells more\n";
+        return "obscura-atrium: " + std::string(error.what()) + "; see --help\n";
     });
     CLI11_PARSE(app, argc, argv);
     try {

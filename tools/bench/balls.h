@@ -1,4 +1,4 @@
-// A scene of any number of triangles that always shows the same: sixty-four balls on a floor before a wall.
+// A generated scene with a given number of triangles, for scaling tests: 64 balls on a floor in front of a wall.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace obscura::bench {
 
-// Writes balls-N.glb to the folder, N close to `triangles`; returns its path.
+// Writes balls-N.glb, N = `triangles`, to the folder; returns its path. The number of triangles is approximate.
 std::filesystem::path writeBalls(uint64_t triangles, const std::filesystem::path& folder);
 
 }  // namespace obscura::bench

@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr uint32_t kMeasure = 1;  // counts changes to what is measured, so that parts of older programs are not taken up
+constexpr uint32_t kMeasure = 1;  // version of the measurement; saved measurements of other versions are not resumed
 
-constexpr double kFlickerStart = 4.0;  // s into the scene's flythrough: under way
+constexpr double kFlickerStart = 4.0;  // s into the scene's flythrough, where the camera moves
 
-// A row while it grows: every timed frame of every round is kept.
+// A row being measured, with the times of every timed frame of every round.
 struct Cell {
     Row row;
     size_t shot = 0;
@@ -52,7 +52,7 @@ struct Cell {
     }
 };
 
-// All shots of a scene, whose cells take turns.
+// All shots of a scene. Their cells are measured in turns, round by round.
 class SceneBench {
 public:
     SceneBench(evaluate::Machine& machine, const Options& options, const std::string& scene, const std::string& title)
@@ -114,7 +114,7 @@ private:
         row.settings = fmt::format("{}", fmt::join(candidate.settings, " "));
         row.width = m_shots[shot].frame.visible().x;
         row.height = m_shots[shot].frame.visible().y;
-        row.yardstick = candidate.info().yardstick;
+        row.baseline = candidate.info().baseline;
         row.triangles = m_loaded.triangles();
         row.reach = ao::reach(falloff.falloff);
         row.varied = fmt::format("{}", fmt::join(candidate.varied, " "));
@@ -138,10 +138,10 @@ private:
         return hash.hex();
     }
 
-    // What a shot's cells are held against.
+    // References and baseline memory of a shot's cells.
     struct Ground {
         uint64_t bytes;                // of the frame without obscurance
-        std::vector<evaluate::JudgedBy> references;
+        std::vector<evaluate::ShotReference> references;
     };
     std::vector<Ground> look() {
         std::vector<Ground> grounds;
@@ -153,17 +153,17 @@ private:
         return grounds;
     }
 
-    // Errors and memory: what does not change from round to round.
+    // Errors and memory, which are the same in every round.
     void judge(Cell& cell, const evaluate::Drawing& drawing, const Ground& ground) const {
         cell.row.bytes = drawing.bytes - std::min(drawing.bytes, ground.bytes);
-        for (const evaluate::JudgedBy& reference : ground.references) {
+        for (const evaluate::ShotReference& reference : ground.references) {
             if (reference.falloff != cell.falloff->text) continue;
             const truth::Metrics m = truth::compare(drawing.visibility, reference.visibility, m_shots[cell.shot].frame.visibleMask());
             cell.row.errors.push_back({reference.kind, m.raw.eA, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim});
         }
     }
 
-    // Over the scene's own flythrough, where it has one; the same for all cameras and sizes.
+    // Flicker over the scene's flythrough, if it has one; the same for all cameras and sizes.
     void flicker() {
         const evaluate::SceneFile file = evaluate::findScene(m_scene);
         if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); })) return;
@@ -186,7 +186,7 @@ private:
         }
     }
 
-    // Now and then; now if it must be.
+    // At most every 2 s unless forced.
     void save(bool must) {
         constexpr double kEvery = 2000.0;  // ms
         if (!must && app::now() - m_saved < kEvery) return;
@@ -202,7 +202,7 @@ private:
         app::writeFile(m_file, json.dump() + "\n");
     }
 
-    // What an earlier run left, if it was this very one with no more rounds.
+    // Loads the measurements of an earlier run with the same key and at most as many rounds.
     void take() {
         std::ifstream in(m_file, std::ios::binary);
         if (!in) return;
@@ -220,7 +220,7 @@ private:
                 if (cells[i].row.rounds.size() > m_options.what.rounds) return;
             }
             m_cells = std::move(cells);
-        } catch (const Json::exception&) {}  // not one of ours: measured anew
+        } catch (const Json::exception&) {}  // not a file of this program: measure again
     }
 
     evaluate::Machine& m_machine;

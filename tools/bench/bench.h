@@ -1,4 +1,4 @@
-// The measuring itself, kept in OUT/parts every few seconds, so that an interrupted run goes on where it stopped.
+// Runs the benchmark. Measurements are saved to OUT/parts every 2 s, so that an interrupted run resumes.
 #pragma once
 
 #include "options.h"

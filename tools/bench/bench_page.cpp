@@ -1,3 +1,4 @@
+// Data of the benchmark's page as JSON.
 #include "app/page.h"
 #include "front.h"
 #include "page.h"

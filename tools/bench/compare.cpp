@@ -21,7 +21,7 @@ using Rounds = std::vector<double>;
 struct Pair {
     const Row* before;
     const Row* now;
-    Rounds old, fresh;                 // what is compared, a value a round
+    Rounds old, fresh;                 // the compared values, one per round
     double ratio() const { return percentile(fresh, 0.5) / percentile(old, 0.5); }
 };
 
@@ -58,10 +58,10 @@ std::string dearestPass(const Row& before, const Row& now) {
 
 void expectAlike(const Results& before, const Results& now) {
     if (before.device != now.device)
-        throw app::Complaint(fmt::format("--compare: the old run is of {}, this one of {}; times compare only on one device", before.device, now.device));
+        throw app::Complaint(fmt::format("--compare: the old run used {}, this one {}; times are comparable only on the same device", before.device, now.device));
     for (const Results* side : {&before, &now})
         for (const Row& row : side->rows)
-            if (row.rounds.size() < 3) throw app::Complaint(fmt::format("--compare: {} has {} rounds; noise cannot be told from fewer than 3 (--rounds)", row.name(), row.rounds.size()));
+            if (row.rounds.size() < 3) throw app::Complaint(fmt::format("--compare: {} has {} rounds; a confidence interval needs 3 or more (--rounds)", row.name(), row.rounds.size()));
 }
 
 }  // namespace
@@ -133,14 +133,14 @@ Comparison compare(const Results& before, const Results& now, const Tolerances& 
 
 std::string comparisonText(const Comparison& c, const Tolerances& tolerances) {
     std::string text = fmt::format("time over the old run's, {}, {:g} % interval over rounds:\n",
-                                   tolerances.absolute ? "milliseconds as they are" : "as shares of each scene's rounds", 100.0 * tolerances.confidence);
+                                   tolerances.absolute ? "in milliseconds" : "as shares of each scene's rounds", 100.0 * tolerances.confidence);
     size_t worse = 0;
     for (const TimeChange& t : c.times) {
         worse += t.worse;
         text += fmt::format("  {:6.3f}  [{:.3f}, {:.3f}]  {}{}\n", t.ratio, t.low, t.high, t.name,
                             t.worse ? fmt::format("  SLOWER{}", t.dearest.empty() ? "" : ": " + t.dearest) : t.better ? "  faster" : "");
     }
-    text += fmt::format("  {:6.3f}  all rows in milliseconds: the machine, or what all methods share\n", c.drift);
+    text += fmt::format("  {:6.3f}  all rows in milliseconds: speed of the machine, or passes that all methods share\n", c.drift);
     for (const std::string& line : c.worse) text += "  WORSE  " + line + "\n";
     for (const std::string& line : c.missing) text += "  MISSING  " + line + "\n";
     if (c.added) text += fmt::format("  {} rows are new\n", c.added);

@@ -1,4 +1,4 @@
-// Reads the command line, measures, writes; turns every failure into one line and an exit code.
+// Entry point of obscura-bench: parses the command line, runs the job, writes the results; a failure is one line and an exit code.
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -28,7 +28,7 @@ std::string textOf(const fs::path& file) {
 int run(int argc, char** argv) {
     const auto options = parseOptions(argc, argv);
     if (!options) return 0;
-    // What can be wrong with files is found before anything is measured.
+    // Files are checked before anything is measured.
     if (!options->table.empty()) withTable(textOf(options->table), "", options->table), app::expectWritable(options->table);
     std::optional<Results> before;
     if (!options->compare.empty()) before = readResults(options->compare);

@@ -40,61 +40,61 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     what.rounds = 5;
     what.frames = 5;
     what.rays.rays = 256;
-    CLI::App cli{"Times ambient-obscurance methods against each other and says what the time buys: error against ray-traced references, flicker, memory.",
+    CLI::App cli{"Measures time, error against ray-traced references, flicker and memory of ambient-obscurance methods.",
                  "obscura-bench"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(
-        "All methods, falloffs, cameras and sizes of a scene take turns, a round after the other, so that a machine's drift hits them alike. Compare\n"
-        "times inside one run only. Writes to --out: bench.html (error against time, scaling), bench.json, bench.csv, passes.csv, bench.md. A run that was\n"
-        "interrupted goes on where it was.\n\n"
+        "All methods, falloffs, cameras and sizes of a scene run in turns, round by round, so that drift of the machine affects all equally. Compare\n"
+        "times of one run only. Writes to --out: bench.html (error against time, scaling), bench.json, bench.csv, passes.csv, bench.md. An interrupted\n"
+        "run resumes with the same command.\n\n"
         "Examples:\n"
-        "  obscura-bench --scene sponza,atrium --falloff quadratic:2,exponential:1 --out out/front       who is best at every millisecond\n"
+        "  obscura-bench --scene sponza,atrium --falloff quadratic:2,exponential:1 --out out/front       error against time\n"
         "  obscura-bench --method hbao --set steps=4,8,16 --scene atrium                                 cost and error against samples\n"
-        "  obscura-bench --method hybrid --set voxel_structure=dense,nanovdb --scene sponza              two ways to keep voxels\n"
-        "  obscura-bench --triangles 10000,100000,1000000 --size 320x180,640x360,1280x720 --flicker 0    how time grows\n"
-        "  obscura-bench --scene sponza --compare before/bench.json                                      is anything slower or worse than it was?\n"
+        "  obscura-bench --method hybrid --set voxel_structure=dense,nanovdb --scene sponza              two voxel structures\n"
+        "  obscura-bench --triangles 10000,100000,1000000 --size 320x180,640x360,1280x720 --flicker 0    scaling of time\n"
+        "  obscura-bench --scene sponza --compare before/bench.json                                      regressions\n"
         "  obscura-bench --from out/front/bench.json --table README.md                                   the table between README's markers");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    evaluate::Judged judged;
-    judged.methods = {"all"};
+    evaluate::CandidateOptions chosen;
+    chosen.methods = {"all"};
     std::vector<std::string> falloffs{"quadratic:2"}, cameras{"own"}, references{"world", "screen"}, sizes{"640x360"}, triangles;
     std::string flickerSize = "320x180", out = "out/bench";
     uint32_t flickerFrames = 12;
     bool noCache = false;
     using evaluate::takeAll;
 
-    cli.option_defaults()->group("What is looked at");
-    takeAll(cli.add_option("--scene", what.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas (all that are here)"));
-    takeAll(cli.add_option("--triangles", triangles, "Balls on a floor of about so many triangles, to see how time grows with them; instead of --scene, or beside it"));
+    cli.option_defaults()->group("Frames");
+    takeAll(cli.add_option("--scene", what.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas (default: all that are found)"));
+    takeAll(cli.add_option("--triangles", triangles, "Generated scenes of about so many triangles, for scaling; instead of --scene, or in addition"));
     takeAll(cli.add_option("--camera", cameras, "own, scene:N, path:FILE@SECONDS, path:@SECONDS, FILE.json; several with commas")->capture_default_str());
     takeAll(cli.add_option("--size", sizes, "WIDTHxHEIGHT in pixels, without guard band; several with commas")->capture_default_str());
     cli.add_option("--guard", what.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
     app::addVoxelArguments(cli, what.voxels, cli.option_defaults()->get_group());
 
-    cli.option_defaults()->group("What is measured");
-    addJudged(cli, judged,
-              "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it, or a list of values: each is measured; may be repeated. Whatever traces "
-              "voxels also has voxels, voxel_size, voxelizer, voxel_structure and voxel_shell");
+    cli.option_defaults()->group("Measurement");
+    addCandidateOptions(cli, chosen,
+              "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it, or a list of values: each is measured; may be repeated. Methods that "
+              "trace voxels also have voxels, voxel_size, voxelizer, voxel_structure and voxel_shell");
     takeAll(cli.add_option("--falloff", falloffs, "KIND:LENGTH in metres, or ramp:START:END; several with commas")->capture_default_str());
-    cli.add_option("--rounds", what.rounds, "Times the whole list is run")->check(CLI::Range(1u, 1000u))->capture_default_str();
-    cli.add_option("--frames", what.frames, "Timed frames of each in a round")->check(CLI::Range(1u, 100000u))->capture_default_str();
-    cli.add_option("--warm-up", what.warmUp, "Frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
-    takeAll(cli.add_option("--reference", references, "What errors are measured against: world, screen, or none")->capture_default_str());
-    cli.add_option("--rays", what.rays.rays, "Rays a pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
-    cli.add_option("--seed", what.rays.seed, "Of the rays")->capture_default_str();
-    cli.add_flag("--no-cache", noCache, "Render references anew, keep none (they lie in the user's cache folder)");
-    cli.add_option("--flicker", flickerFrames, "Frames of the scene's flythrough that flicker is measured on; 0: it is not")->check(CLI::Range(0u, 10000u))->capture_default_str();
-    cli.add_option("--flicker-size", flickerSize, "Their size")->capture_default_str();
+    cli.add_option("--rounds", what.rounds, "Number of rounds; each runs all settings once")->check(CLI::Range(1u, 1000u))->capture_default_str();
+    cli.add_option("--frames", what.frames, "Timed frames of each setting in a round")->check(CLI::Range(1u, 100000u))->capture_default_str();
+    cli.add_option("--warm-up", what.warmUp, "Untimed frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
+    takeAll(cli.add_option("--reference", references, "References that errors are measured against: world, screen, or none")->capture_default_str());
+    cli.add_option("--rays", what.rays.rays, "Rays per pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
+    cli.add_option("--seed", what.rays.seed, "Seed of the rays")->capture_default_str();
+    cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
+    cli.add_option("--flicker", flickerFrames, "Frames of the scene's flythrough on which flicker is measured; 0: flicker is not measured")->check(CLI::Range(0u, 10000u))->capture_default_str();
+    cli.add_option("--flicker-size", flickerSize, "WIDTHxHEIGHT of those frames, pixels")->capture_default_str();
 
-    cli.option_defaults()->group("What comes out");
+    cli.option_defaults()->group("Output");
     cli.add_option("--out", out, "Folder of the results")->capture_default_str();
-    cli.add_flag("--again", options.again, "Measure anew what the folder holds already");
-    cli.add_option("--from", options.from, "Measure nothing: take the bench.json of an earlier run");
-    cli.add_option("--table", options.table, "Markdown file whose table between <!-- bench: begin --> and <!-- bench: end --> is written anew");
-    cli.add_option("--compare", options.compare, "bench.json of an earlier run: print ratios with confidence intervals, fail when something is worse beyond noise");
-    cli.add_option("--tolerance", options.tolerance, "By which the time of a row may grow beyond its noise")->check(CLI::Range(0.0, 10.0))->capture_default_str();
-    cli.add_flag("--absolute", options.absolute, "Compare milliseconds as they are; else as shares of their round, so that a slower machine is no regression");
+    cli.add_flag("--again", options.again, "Measure again instead of resuming from the folder");
+    cli.add_option("--from", options.from, "Measure nothing; read the bench.json of an earlier run");
+    cli.add_option("--table", options.table, "Markdown file; replaces its table between <!-- bench: begin --> and <!-- bench: end -->");
+    cli.add_option("--compare", options.compare, "bench.json of an earlier run: print ratios with confidence intervals, fail on regressions");
+    cli.add_option("--tolerance", options.tolerance, "Relative growth of a row's time that is allowed in addition to its confidence interval")->check(CLI::Range(0.0, 10.0))->capture_default_str();
+    cli.add_flag("--absolute", options.absolute, "Compare milliseconds, not shares of a round; then a slower machine counts as a regression");
     evaluate::addDevice(cli, what.device, what.validation, what.verbose);
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
@@ -102,7 +102,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.out = out;
     if (!options.from.empty()) {
         for (const char* option : {"--scene", "--triangles", "--method", "--preset", "--set", "--falloff", "--size", "--camera"})
-            if (cli.count(option)) throw Complaint(fmt::format("{}: --from takes everything from its file; leave one of them out", option));
+            if (cli.count(option)) throw Complaint(fmt::format("{}: has no effect with --from, which reads an earlier run; leave one of them out", option));
         if (!cli.count("--out")) options.out.clear();  // tables and comparisons need no folder
         return options;
     }
@@ -113,12 +113,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     for (const std::string& size : sizes) options.sizes.push_back(app::sizeOf(size));
     for (const std::string& camera : cameras) what.cameras.push_back(evaluate::cameraOf(camera));
     what.falloffs = evaluate::falloffs(falloffs);
-    what.candidates = evaluate::variants(judged.methods, judged.presets, judged.allSets());
+    what.candidates = evaluate::variants(chosen.methods, chosen.presets, chosen.allSets());
     for (const std::string& reference : references) {
         if (reference == "world") what.reference.world = true;
         else if (reference == "screen") what.reference.screen = true;
         else if (reference != "none" || references.size() > 1)
-            throw Complaint(fmt::format("--reference {}: {}", reference, reference == "none" ? "none stands alone" : app::choices(reference, {"world", "screen", "none"})));
+            throw Complaint(fmt::format("--reference {}: {}", reference, reference == "none" ? "none cannot be combined with others" : app::choices(reference, {"world", "screen", "none"})));
     }
     what.rays.targetError = 0.0f;
     what.rays.cache = !noCache;

@@ -1,4 +1,4 @@
-// The report's page/ files, embedded by the build (page.cpp is generated), and the page they make.
+// The HTML report: files of page/, embedded by the build (page.cpp is generated), and the page made from them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace obscura::bench {
 
-extern const char* const kPageHtml;  // with the marks /*STYLE*/, /*SCRIPT*/ and /*DATA*/
+extern const char* const kPageHtml;  // contains the placeholders /*STYLE*/, /*SCRIPT*/ and /*DATA*/
 extern const char* const kPageCss;
 extern const char* const kPageJs;
 

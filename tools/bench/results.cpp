@@ -28,7 +28,7 @@ const ErrorRow* Row::against(const std::string& reference) const {
 }
 
 Json toJson(const Row& r) {
-    Json json{{"method", r.method}, {"preset", r.preset}, {"settings", r.settings}, {"yardstick", r.yardstick}, {"scene", r.scene}, {"camera", r.camera},
+    Json json{{"method", r.method}, {"preset", r.preset}, {"settings", r.settings}, {"baseline", r.baseline}, {"scene", r.scene}, {"camera", r.camera},
               {"width", r.width}, {"height", r.height}, {"falloff", r.falloff}, {"triangles", r.triangles}, {"reach", digits(r.reach)},
               {"varied", r.varied}, {"samples", r.samples}, {"bytes", r.bytes}};
     Json& ms = json["milliseconds"];
@@ -49,7 +49,7 @@ Json toJson(const Row& r) {
 
 Row rowOf(const Json& json) {
     Row r;
-    r.method = json.at("method"), r.preset = json.at("preset"), r.settings = json.at("settings"), r.yardstick = json.at("yardstick");
+    r.method = json.at("method"), r.preset = json.at("preset"), r.settings = json.at("settings"), r.baseline = json.at("baseline");
     r.scene = json.at("scene"), r.camera = json.at("camera"), r.width = json.at("width"), r.height = json.at("height"), r.falloff = json.at("falloff");
     r.triangles = json.at("triangles"), r.reach = json.at("reach"), r.varied = json.at("varied"), r.samples = json.at("samples"), r.bytes = json.at("bytes");
     const Json& ms = json.at("milliseconds");
@@ -81,17 +81,17 @@ Results readResults(const std::filesystem::path& file) {
         for (const Json& row : json.at("rows")) results.rows.push_back(rowOf(row));
         return results;
     } catch (const Json::exception& error) {
-        throw app::Complaint(fmt::format("{}: is no bench.json of this program ({})", file.string(), app::oneLine(error.what())));
+        throw app::Complaint(fmt::format("{}: is not a bench.json of obscura-bench ({})", file.string(), app::oneLine(error.what())));
     }
 }
 
 std::string csv(const Results& results) {
     std::string text =
-        "scene,camera,width,height,triangles,falloff,reach_m,method,preset,settings,yardstick,median_ms,p95_ms,frame_ms,bytes,reference,eA,bias,rmse,p99,ssim,"
+        "scene,camera,width,height,triangles,falloff,reach_m,method,preset,settings,baseline,median_ms,p95_ms,frame_ms,bytes,reference,eA,bias,rmse,p99,ssim,"
         "flicker_of_error,flicker_of_reference\n";
     for (const Row& r : results.rows) {
         const std::string head = fmt::format("{},{},{},{},{},{},{:g},{},{},{},{},{:.4f},{:.4f},{:.4f},{}", r.scene, r.camera, r.width, r.height, r.triangles, r.falloff,
-                                             r.reach, r.method, r.preset, r.settings, int(r.yardstick), r.median, r.p95, r.frame, r.bytes);
+                                             r.reach, r.method, r.preset, r.settings, int(r.baseline), r.median, r.p95, r.frame, r.bytes);
         const std::string tail = r.flicker ? fmt::format("{:.6f},{:.6f}", r.flicker->ofError, r.flicker->ofReference) : ",";
         for (const ErrorRow& e : r.errors)
             text += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n", head, e.reference, e.eA, e.bias, e.rmse, e.p99, e.ssim, tail);

@@ -1,4 +1,4 @@
-// What a benchmark found: one row for each candidate on each shot with each falloff, and its way into JSON and back.
+// Results of a benchmark: one row per candidate, shot and falloff; JSON and CSV.
 #pragma once
 
 #include <filesystem>
@@ -25,30 +25,30 @@ struct ErrorRow {
 
 struct Flicker {
     double ofError = 0.0;              // F_e, mean over a flythrough of the scene
-    double ofReference = 0.0;          // F_R, that of a picture in which nothing ever changes
+    double ofReference = 0.0;          // F_R, the flicker of error of a constant picture
 };
 
-// What tells rows apart. Rows with the same scene, camera and size were measured round by round, turn and turn about.
+// The key of a row. Rows of the same scene, camera and size were measured in turns, round by round.
 struct Row {
     std::string scene, camera, falloff, method, preset, settings;
     uint32_t width = 0, height = 0;
-    bool yardstick = false;            // a method to be measured against, not one of this project's
+    bool baseline = false;            // a published method to compare with
     std::string label() const;         // "hbao 8x4 steps=4"
     std::string place() const;         // "sponza own 640x360 quadratic:2"
     bool drawsObscurance() const { return method != "none"; }
     std::string name() const { return label() + ", " + place(); }
 
-    // What may make it dear.
+    // Quantities that time may scale with.
     uint64_t triangles = 0;            // of the scene
     double reach = 0.0;                // m, of the falloff
     std::string varied;                // names of the settings that were given lists, "directions steps"
-    double samples = 0.0;              // product of their values; 0: none was
+    double samples = 0.0;              // product of their values; 0: none was varied
 
     // Milliseconds of the method's own passes, warm-up dropped.
     double median = 0.0, p95 = 0.0;    // over all timed frames of all rounds
     std::vector<double> rounds;        // median of each round
     std::vector<PassTime> passes;
-    double frame = 0.0;                // what draws the frame whatever the method, median
+    double frame = 0.0;                // median of the passes that draw the frame for every method
 
     uint64_t bytes = 0;                // device memory beyond that of the frame without obscurance
     std::vector<ErrorRow> errors;
@@ -57,7 +57,7 @@ struct Row {
 };
 
 struct Results {
-    std::string device, command;       // command: the line that made them
+    std::string device, command;       // command: the command line of the run
     double guard = 0.0;
     uint32_t frames = 0, warmUp = 0, rounds = 0, rays = 0;
     uint32_t flickerFrames = 0, flickerWidth = 0, flickerHeight = 0;
@@ -67,9 +67,9 @@ struct Results {
 Json toJson(const Row& row);
 Row rowOf(const Json& json);           // throws Json::exception
 std::string jsonText(const Results& results);
-Results readResults(const std::filesystem::path& file);  // throws app::Complaint: which file, what it lacks
+Results readResults(const std::filesystem::path& file);  // throws app::Complaint
 
-// A line a row, and a line a pass.
+// One line per row; one line per pass.
 std::string csv(const Results& results);
 std::string passesCsv(const Results& results);
 

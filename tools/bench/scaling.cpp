@@ -11,7 +11,7 @@ namespace obscura::bench {
 
 namespace {
 
-// A row's place on an axis, and what it shares with the others of its line. An empty label: it has no place there.
+// A row's value on an axis, and label and shared properties that select its line. An empty label: the row is not on this axis.
 struct At {
     std::string label, where;
     double x = 0.0;
@@ -19,10 +19,10 @@ struct At {
 
 std::string size(const Row& r) { return fmt::format("{}x{}", r.width, r.height); }
 std::string kind(const Row& r) { return r.falloff.substr(0, r.falloff.find(':')); }
-// "balls-10000" -> "balls": generated scenes show the same at every number of triangles.
+// "balls-10000" -> "balls": generated scenes look alike at every number of triangles.
 bool generated(const Row& r) { return r.scene.starts_with("balls-"); }
 
-// The label without what was varied.
+// The label without the varied parameters.
 std::string bare(const Row& r) {
     std::string text = r.method;
     if (r.preset != "default") text += " " + r.preset;

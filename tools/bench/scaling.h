@@ -1,4 +1,4 @@
-// How time grows: rows that differ in one thing alone, and the power of it that fits their times.
+// Scaling of time: power laws fitted to rows that differ in one quantity only.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 namespace obscura::bench {
 
 struct Fit {
-    std::string axis;                  // "pixels", "radius", "triangles", or what was varied: "steps"
-    std::string label, where;          // the candidate without what was varied; what all rows share
+    std::string axis;                  // "pixels", "radius", "triangles", or the varied parameter: "steps"
+    std::string label, where;          // the candidate without the varied parameter; scene, camera, size and falloff shared by the rows
     std::vector<double> x, y;          // y: ms; at least three different x, ascending
     double exponent = 0.0, error = 0.0, factor = 0.0;  // y = factor x^exponent; standard error of the exponent
 };

@@ -25,7 +25,7 @@ void addNew(std::vector<T>& list, const T& value) {
 // One candidate over all shots of a size with a falloff.
 struct Line {
     std::string label, method;
-    bool plain = false, yardstick = false, best = false;  // default preset; best: no other beats it
+    bool plain = false, baseline = false, best = false;  // default preset; best: on the Pareto front
     double logTime = 0.0, p95 = 0.0, bytes = 0.0, world = 0.0, screen = 0.0, flicker = 0.0;
     size_t rows = 0, worlds = 0, screens = 0, flickers = 0;
     bool timed = true;
@@ -55,7 +55,7 @@ std::vector<Table> tablesOf(const Results& results) {
             if (fmt::format("{} x {}", row.width, row.height) != table.size || row.falloff != table.falloff) continue;
             auto line = std::find_if(table.lines.begin(), table.lines.end(), [&](const Line& l) { return l.label == row.label(); });
             if (line == table.lines.end()) {
-                line = table.lines.insert(table.lines.end(), Line{row.label(), row.method, row.preset == "default" && row.settings.empty(), row.yardstick});
+                line = table.lines.insert(table.lines.end(), Line{row.label(), row.method, row.preset == "default" && row.settings.empty(), row.baseline});
                 line->scenes.assign(table.places.size(), "");
             }
             ++line->rows;
@@ -82,7 +82,7 @@ std::vector<Table> tablesOf(const Results& results) {
 
 std::string mean(double sum, size_t count) { return count ? fmt::format("{:.4f}", sum / double(count)) : ""; }
 
-// What a method cannot do without, and in brackets what it reads where there is some.
+// Required inputs, and optional ones in brackets.
 std::string inputsOf(const ao::MethodInfo& info) {
     std::string text;
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
@@ -101,7 +101,7 @@ std::string tableText(const Table& table, bool brief) {
     for (const Line& line : table.lines) {
         if (brief && !line.plain && !line.best) continue;
         const std::string name = line.best ? fmt::format("**{}**", line.label) : line.label;
-        text += fmt::format("| {}{} |", name, line.yardstick ? " (yardstick)" : "");
+        text += fmt::format("| {}{} |", name, line.baseline ? " (baseline)" : "");
         const ao::MethodInfo* info = brief ? ao::findMethod(line.method.c_str()) : nullptr;
         if (brief) text += fmt::format(" {} | {} |", !info || !line.plain ? "" : info->paper[0] || !info->needs ? citation(info->paper) : "our own", info ? inputsOf(*info) : "");
         text += fmt::format(" {:.2f} | {:.2f} | {:.1f} |", line.milliseconds(), line.p95, line.bytes * 1e-6);
@@ -113,9 +113,9 @@ std::string tableText(const Table& table, bool brief) {
 
 std::string legend(const Results& r) {
     return fmt::format(
-        "ms: median time of the method's own passes, geometric mean over the scenes, {} rounds of {} frames in turns after {} to warm up; p95: 95th percentile over the\n"
+        "ms: median time of the method's own passes, geometric mean over the scenes, {} rounds of {} frames in turns after {} for warm-up; p95: 95th percentile over the\n"
         "median, the worst scene's; MB: device memory beyond the frame's own. eA: mean absolute error of visibility against rays through the scene's triangles, {}\n"
-        "a pixel; eA screen: against rays through the depth buffer, mean over the scenes.{} Bold: no other is both cheaper and nearer to the truth, on the mean of\n"
+        "a pixel; eA screen: against rays through the depth buffer, mean over the scenes.{} Bold: no other is both faster and more accurate, on the mean of\n"
         "the scenes. {}; compare times only inside the table. (layers): read where `depth_layers` says so. Missing normals are reconstructed; any method but\n"
         "`hybrid` takes voxels with `offscreen`, and motion with `temporal`.\n",
         r.rounds, r.frames, r.warmUp, r.rays,
@@ -148,11 +148,11 @@ std::string markdown(const Results& results) {
 
 std::string report(const Results& results) {
     std::string text = fmt::format("# Time, error, flicker and memory of ambient-obscurance methods\n\n    {}\n\n{}\n{}", results.command, legend(results), markdown(results));
-    const char* head = "\n## Fronts\n\nAt which time budgets a yardstick has less error than the best of ours that fits.\n\n";
+    const char* head = "\n## Fronts\n\nTime budgets at which a baseline method has less error than the best of ours within budget.\n\n";
     for (const Front& front : fronts(results)) {
         if (!front.both) continue;
         text += std::exchange(head, "");
-        if (front.gaps.empty()) text += fmt::format("- {}: none; one of ours is ahead at every budget\n", front.title());
+        if (front.gaps.empty()) text += fmt::format("- {}: none; one of ours has the least error at every budget\n", front.title());
         for (const Gap& gap : front.gaps) text += fmt::format("- {}: {}\n", front.title(), gapText(gap, results, front.reference));
     }
     const std::vector<Fit> lines = fits(results);
@@ -166,7 +166,7 @@ std::string report(const Results& results) {
 
 std::string briefTable(const Results& results) {
     const std::vector<Table> tables = tablesOf(results);
-    if (tables.empty()) throw app::Complaint("--table: nothing was measured that could stand in a table");
+    if (tables.empty()) throw app::Complaint("--table: nothing was measured, so there is no table");
     return fmt::format("{}, {} px, default presets and the best of all:\n\n{}\n{}\n    {}\n", tables.front().falloff, tables.front().size, tableText(tables.front(), true),
                        legend(results), results.command);
 }
@@ -174,7 +174,7 @@ std::string briefTable(const Results& results) {
 std::string withTable(const std::string& text, const std::string& table, const std::filesystem::path& file) {
     const size_t begin = text.find(kTableBegin), end = text.find(kTableEnd);
     if (begin == std::string::npos || end == std::string::npos || end < begin)
-        throw app::Complaint(fmt::format("--table {}: has no place for it; put the lines {} and {} where it shall stand", file.string(), kTableBegin, kTableEnd));
+        throw app::Complaint(fmt::format("--table {}: has no markers; put the lines {} and {} where the table belongs", file.string(), kTableBegin, kTableEnd));
     return text.substr(0, begin) + kTableBegin + "\n" + table + text.substr(end);
 }
 

@@ -1,4 +1,4 @@
-// Options that the measuring programs share.
+// Command-line options shared by obscura-evaluate, -flythrough, -bench and -tune.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,18 +10,18 @@ namespace obscura::evaluate {
 // An option that takes a list with commas, and may be repeated.
 CLI::Option* takeAll(CLI::Option* option);
 
-// --method, --preset, --set, --offscreen in the group that is current.
-struct Judged {
+// --method, --preset, --set and --offscreen, in the current option group.
+struct CandidateOptions {
     std::vector<std::string> methods{"hbao"}, presets{"default"}, sets;
     std::string offscreen, resolve;
-    std::vector<std::string> allSets() const;  // --offscreen and --resolve among them
+    std::vector<std::string> allSets() const;  // including those of --offscreen and --resolve
 };
-void addJudged(CLI::App& cli, Judged& into, const char* setHelp = "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated");
+void addCandidateOptions(CLI::App& cli, CandidateOptions& into, const char* setHelp = "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated");
 
-// --device, --validation, --verbose and their group.
+// --device, --validation and --verbose, in their own group.
 void addDevice(CLI::App& cli, std::string& device, std::string& validation, bool& verbose);
 
-// The line as it is told in results: without --out, --table, --compare and --device, which say where things are here.
+// The command line for results: without --out, --table, --compare and --device, which name local files and devices.
 std::string commandOf(const char* program, int argc, const char* const* argv);
 
 }  // namespace obscura::evaluate

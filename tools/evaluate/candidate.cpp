@@ -43,7 +43,7 @@ bool wants(const std::vector<std::string>& presets, const char* id) {
     return isAll(presets) || std::find(presets.begin(), presets.end(), id) != presets.end();
 }
 
-// A preset that only some of the methods have is fine; one that none has is a mistake.
+// A preset that only some of the methods have is accepted; one that none has is an error.
 void expectKnown(const std::vector<const ao::MethodInfo*>& methods, const std::vector<std::string>& presets) {
     std::vector<std::string> names;
     for (const ao::MethodInfo* info : methods)
@@ -56,7 +56,7 @@ void expectKnown(const std::vector<const ao::MethodInfo*>& methods, const std::v
                                         app::choices(wanted, names)));
 }
 
-// How the world is voxelized, as parameters of whatever traces voxels.
+// Voxelization settings, as parameters of the methods that trace voxels.
 const ao::Parameter kVoxels[] = {
     {"voxels", "", 64, 512, 256, true, {}, ""},
     {"voxel_size", "m", 0, 1000, 0, false, {}, ""},
@@ -67,7 +67,7 @@ const ao::Parameter kVoxels[] = {
 constexpr std::optional<float> VoxelChoice::*kVoxelMembers[] = {&VoxelChoice::cells, &VoxelChoice::cellSize, &VoxelChoice::voxelizer,
                                                                 &VoxelChoice::structure, &VoxelChoice::shell};
 
-// Nothing when the method has no such parameter.
+// Empty if the method has no such parameter.
 const ao::Parameter* parameterOf(const Candidate& candidate, const std::string& name) {
     for (const ao::Parameter& parameter : candidate.info().parameters)
         if (name == parameter.id) return &parameter;
@@ -84,7 +84,7 @@ float valueOf(const std::string& assignment, const ao::Parameter& parameter, con
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
         const std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
-        throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is no number; {} goes from {:g} to {:g}", assignment, text, parameter.id,
+        throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is not a number; {} goes from {:g} to {:g}", assignment, text, parameter.id,
                                                     parameter.minimum, parameter.maximum)
                                       : fmt::format("--set {}: {}", assignment, app::choices(text, words)));
     }
@@ -205,7 +205,7 @@ std::vector<Candidate> variants(const std::vector<std::string>& methods, const s
                     if (setting.starts_with(name + "=")) candidate.varied.push_back(name);
             all.push_back(std::move(candidate));
         }
-    // A method's variants side by side, in the order of the methods.
+    // Variants of a method are adjacent, in the order of the methods.
     std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
         const auto order = [](const Candidate& c) { return std::find(ao::methods().begin(), ao::methods().end(), &c.info()); };
         return order(a) < order(b);
@@ -225,7 +225,7 @@ std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts) {
             throw Complaint(
                 fmt::format("--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
         }
-        // One spelling whatever was typed: cells and channels are found by it.
+        // Normalized spelling, because cells and channels are found by it.
         const std::string kind = kKinds[size_t(falloff.kind)];
         std::string plain = fmt::format("{}:{:g}", kind, falloff.length);
         if (falloff.kind == ao::FalloffKind::ramp) plain += fmt::format(":{:g}", falloff.end);

@@ -1,4 +1,4 @@
-// What is judged: a method with the values of one preset and the settings over them.
+// A candidate of a measurement: a method with the values of a preset and settings that replace some of them.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace obscura::evaluate {
 
-// What a candidate asks of the voxels, over what the run says: settings voxels, voxel_size, voxelizer, voxel_structure, voxel_shell.
+// A candidate's voxelization, replacing that of the run: settings voxels, voxel_size, voxelizer, voxel_structure, voxel_shell.
 struct VoxelChoice {
     std::optional<float> cells, cellSize, voxelizer, structure, shell;
     render::Voxelization over(render::Voxelization how) const;
@@ -23,20 +23,20 @@ struct Candidate {
     VoxelChoice voxels;
     std::vector<std::string> varied;    // parameters of `settings` that were given a list of values
     const ao::MethodInfo& info() const { return values.info(); }
-    std::string label() const;          // "hbao 8x4 steps=4"; the default preset goes without saying
+    std::string label() const;          // "hbao 8x4 steps=4"; the default preset is left out
     std::string fileName() const;       // "hbao.8x4", settings included; letters, digits, dots, dashes
 };
 
 // Every method named (or "all") with every preset named (or "all") that it has, `sets` applied: "METHOD.PARAMETER=VALUE", or
 // "PARAMETER=VALUE" for every chosen method that has the parameter; "resolve=NAME" stands for what one of ao::resolvePresets() sets.
-// Throws app::Complaint that lists what there is.
+// Throws app::Complaint, which lists the known names.
 std::vector<Candidate> candidates(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
                                   const std::vector<std::string>& sets);
-// The same where a setting may list values, "steps=4,8,16": a candidate for each combination, none twice.
+// As candidates(), but a setting may list values, "steps=4,8,16": a candidate for each combination, none twice.
 std::vector<Candidate> variants(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
                                 const std::vector<std::string>& sets);
 
-// One of ao::resolvePresets(), which `said` asked for; throws app::Complaint.
+// One of ao::resolvePresets() by its id; throws app::Complaint, whose text begins with the option `said`.
 const ao::Preset& resolvePreset(const std::string& said, const std::string& id);
 
 struct FalloffChoice {

@@ -58,7 +58,7 @@ SceneFile findScene(const std::string& nameOrPath) {
     for (SceneFile& scene : namedScenes()) {
         names.push_back(scene.name);
         if (scene.name != nameOrPath) continue;
-        if (scene.file.empty()) throw Complaint(fmt::format("--scene {}: its file is not there; {}", scene.name, scene.howToGet));
+        if (scene.file.empty()) throw Complaint(fmt::format("--scene {}: its file is missing; {}", scene.name, scene.howToGet));
         return scene;
     }
     std::error_code ignored;

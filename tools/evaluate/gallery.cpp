@@ -22,7 +22,7 @@ Json methodsJson(const Options& options) {
     return list;
 }
 
-// What the page needs of a row; `label` and `drawn` tie it to its picture.
+// A row for the page; `label` and `drawn` select its picture.
 Json shotJson(const ShotResult& shot, const Options& options, const About& about) {
     Json json;
     json["scene"] = shot.scene;
@@ -31,7 +31,7 @@ Json shotJson(const ShotResult& shot, const Options& options, const About& about
     json["size"] = {shot.size.x, shot.size.y};
     json["remark"] = shot.remark;
     json["references"] = Json::array();
-    for (const JudgedBy& reference : shot.references)
+    for (const ShotReference& reference : shot.references)
         json["references"].push_back({{"kind", reference.kind},
                                       {"falloff", reference.falloff},
                                       {"rays", reference.rays},

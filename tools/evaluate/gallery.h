@@ -1,5 +1,5 @@
-// Results as one self-contained HTML page: pictures against references with a slider, error pictures, a sortable table,
-// charts. Needs no network and no other file.
+// Results as one self-contained HTML page: pictures and references with a slider, error pictures, a sortable table, charts.
+// It loads no other file.
 #pragma once
 
 #include "report.h"

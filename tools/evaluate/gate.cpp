@@ -17,7 +17,7 @@ using app::Complaint;
 
 namespace {
 
-// The run that a baseline asks for, with the command line's methods and device.
+// The options of a baseline's measurement, with the command line's methods and device.
 Options runOf(const Baseline& baseline, Options options) {
     options.scenes = baseline.scenes;
     options.cameras.clear();
@@ -43,7 +43,7 @@ std::map<Cell, float> measureCells(const Options& options) {
         const ShotResult result = measure(machine, shot, options);
         for (const Row& row : result.rows) {
             const Candidate& candidate = options.candidates[result.drawn[row.drawn].candidate];
-            const JudgedBy& reference = result.references[row.reference];
+            const ShotReference& reference = result.references[row.reference];
             cells[{candidate.info().id, candidate.preset, result.scene, result.camera, reference.falloff, reference.kind}] = row.whole().raw.eA;
         }
         fmt::print("{} {}: {} cells; frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s\n", result.scene, result.camera,
@@ -92,7 +92,7 @@ Baseline readBaseline(const fs::path& file) {
 }
 
 std::string baselineText(const Baseline& baseline) {
-    // Written by hand, so that a cell is a line and a renewal reads well as a difference.
+    // Not dumped by the JSON library: one line per cell keeps diffs readable.
     Json head;
     head["about"] =
         "Mean absolute error of visibility. A cell may not worsen by more than `relative` of itself and `absolute`. Renew: obscura-evaluate --renew-baseline THIS";
@@ -150,12 +150,12 @@ int checkBaseline(const Options& wanted) {
     const Verdict verdict = judge(baseline, measured);
     print("worse than the baseline:", verdict.worse);
     print("not in the baseline:", verdict.missing);
-    print("better than the baseline (renew it to hold what was gained):", verdict.better);
-    // Fewer methods were asked for than the file holds: nothing is gone then.
+    print("better than the baseline (renew it to keep the improvement):", verdict.better);
+    // Cells only in the baseline are reported only if all methods were measured.
     if (wanted.candidates.size() == candidates({"all"}, {"all"}, {}).size()) print("in the baseline only:", verdict.gone);
     const std::string renew = fmt::format("obscura-evaluate --renew-baseline {}", wanted.baseline.string());
     if (!verdict.passes())
-        fmt::print("failed: {} of {} cells are worse, {} are not held yet. If that is meant to be so: {}\n", verdict.worse.size(), measured.size(),
+        fmt::print("failed: {} of {} cells are worse, {} are not in the baseline. If this change is intended: {}\n", verdict.worse.size(), measured.size(),
                    verdict.missing.size(), renew);
     else fmt::print("passed: {} cells, none worse by more than {:g} % and {:g}\n", measured.size(), 100.0f * baseline.relative, baseline.absolute);
     return verdict.passes() ? 0 : app::kFailed;
@@ -173,7 +173,7 @@ int renewBaseline(const Options& wanted) {
         baseline.references = {"world", "screen"};
     }
     const std::map<Cell, float> measured = measureCells(runOf(baseline, wanted));
-    // All of it anew, or the chosen methods' cells among the others.
+    // Replaces all cells, or those of the selected methods only.
     if (wanted.candidates.size() == candidates({"all"}, {"all"}, {}).size()) baseline.cells.clear();
     for (const auto& [cell, eA] : measured) baseline.cells[cell] = eA;
     app::writeFile(wanted.baseline, baselineText(baseline));

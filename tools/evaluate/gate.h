@@ -1,5 +1,5 @@
-// The gate on accuracy: a file of errors, one cell a method, preset, scene, camera, falloff and reference, which no later
-// measurement may exceed. The file also says how its cells were measured, so that both sides measure alike.
+// The accuracy baseline: a file of errors that later measurements must not exceed, one cell per method, preset, scene, camera, falloff and
+// reference. The file also stores the settings of the measurement.
 #pragma once
 
 #include <filesystem>
@@ -21,18 +21,18 @@ struct Baseline {
     glm::uvec2 size{240, 135};
     float guard = 0.1f;
     uint32_t rays = 64, seed = 1;
-    float relative = 0.03f, absolute = 0.0005f;  // a cell fails when it is worse by more than both
+    float relative = 0.03f, absolute = 0.0005f;  // a cell fails if its error grows by more than both
     std::vector<std::string> scenes, cameras, falloffs, references;
     std::map<Cell, float> cells;                 // eA
 };
 
 Baseline readBaseline(const std::filesystem::path& file);  // throws scene::Error
-std::string baselineText(const Baseline& baseline);        // what readBaseline reads, a line a cell
+std::string baselineText(const Baseline& baseline);        // the file's text, one line per cell
 
 struct Verdict {
     std::vector<std::string> worse, missing;   // lines; either fails the gate
     std::vector<std::string> better;           // cells that improved by more than both tolerances
-    std::vector<std::string> gone;             // of methods or presets that no longer exist
+    std::vector<std::string> gone;             // cells of methods or presets that no longer exist
     bool passes() const { return worse.empty() && missing.empty(); }
 };
 Verdict judge(const Baseline& baseline, const std::map<Cell, float>& measured);

@@ -52,7 +52,7 @@ Machine::Machine(const Choice& choice) {
     wanted.log = [this, verbose = choice.verbose](gpu::Severity severity, const char* message) {
         const std::string line = app::oneLine(message);
         if (severity != gpu::Severity::info) m_messages.push_back(line);
-        // Warnings would break the promise of one line a failure; the last of them is part of that line.
+        // Not printed by default: a failure is one line, which ends with the last of these messages.
         if (verbose || line.starts_with("validation")) std::fprintf(stderr, "obscura-evaluate: %s\n", line.c_str());
     };
     if (const auto cache = app::cacheFolder(); !cache.empty()) wanted.pipelineCacheFile = (cache / "pipelines.bin").string();
@@ -114,7 +114,7 @@ Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declar
     app::Statistics statistics(timed);
     uint64_t firstTimed = 0;
     Ran ran;
-    // Times arrive when a frame's slot comes round again: two more frames than are looked at.
+    // A frame's times are read when its slot is used again, so two frames follow the timed ones.
     for (uint32_t i = 0; i <= last + m_device->framesInFlight(); ++i) {
         expect(m_frames->begin(*m_graph), "starting a frame");
         if (i == warmUp) firstTimed = m_device->frame();
@@ -135,7 +135,7 @@ Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declar
             else m_graph->output(images[k]);
         }
         expect(m_frames->end(*m_graph), "drawing");
-        if (i == last) ran.bytes = m_graph->frameBytes();
+        if (i == last) ran.bytes = m_frames->executor().frameBytes();
     }
     expect(m_frames->wait(), "drawing");
 

@@ -1,4 +1,4 @@
-// The GPU and everything on it that a measurement needs, and frames run on it with their times.
+// Device, renderer, library and graph of a measurement; renders frames, reads images back and collects pass times.
 #pragma once
 
 #include <functional>
@@ -24,24 +24,24 @@ public:
 
     gpu::Device& device() { return *m_device; }
     const std::string& deviceName() const { return m_device->caps().deviceName; }
-    // For a scene, made anew: nothing of an earlier scene can be in its pictures or times. The last one is gone.
+    // A new renderer for a scene, so that no state of an earlier scene affects it. Destroys the last one.
     render::Renderer& newRenderer();
-    // One that its caller keeps, beside others; gone before the machine.
+    // A renderer owned by the caller; it must be destroyed before the machine.
     std::unique_ptr<render::Renderer> makeRenderer();
     render::Renderer& renderer() { return *m_renderer; }
-    // Made when first asked for; throw app::Complaint.
+    // Created on first use; throw app::Complaint.
     ao::Library& library();                  // for captured frames
     truth::ScreenReference& screen();
-    // The method's pipelines exist in `library`, or app::Complaint.
+    // Makes the method's pipelines in `library`; throws app::Complaint.
     void expectMethod(ao::Library& library, const ao::MethodInfo& info);
 
-    // Runs frames that `declare` fills; it returns the images that are wanted from the last one. Throws app::Complaint.
+    // Renders frames that `declare` fills; `declare` returns the images to read back after the last one. Throws app::Complaint.
     using Declare = std::function<std::vector<graph::ImageId>(graph::Graph&, uint32_t frame)>;
     struct Ran {
         std::vector<std::vector<std::byte>> images;  // tightly packed rows
         std::vector<graph::PassTime> passes;         // medians over the timed frames, in execution order
         std::vector<graph::Timings> frames;          // every timed frame
-        uint64_t bytes = 0;                          // Graph::frameBytes() of the last one
+        uint64_t bytes = 0;                          // Executor::frameBytes() of the last one
     };
     Ran run(uint32_t warmUp, uint32_t timed, const Declare& declare);
 

@@ -1,4 +1,4 @@
-// Reads the command line, measures, writes; turns every failure into one line and an exit code.
+// Entry point of obscura-evaluate: parses the command line, runs the job, writes the results; a failure is one line and an exit code.
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -13,20 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Everything that can fail is asked before the first frame is drawn.
+// Outputs and inputs are checked before the first frame is drawn.
 void expectOutputs(const Options& options) {
     for (const fs::path& file : {options.json, options.page, options.captureOut})
         if (!file.empty()) app::expectWritable(file);
     if (!options.out.empty()) app::expectFolder(options.out);
 }
 
-// Takes a folder that was made for the results away again when there are none.
+// Removes the folder that was made for the results if the run fails.
 class MadeFolder {
 public:
     explicit MadeFolder(const fs::path& folder) : m_folder(folder.empty() || fs::exists(folder) ? fs::path() : folder) {}
     ~MadeFolder() {
         std::error_code ignored;
-        if (!m_folder.empty()) fs::remove(m_folder, ignored);  // refuses one that holds anything
+        if (!m_folder.empty()) fs::remove(m_folder, ignored);  // fails on a folder that is not empty
     }
 
 private:

@@ -18,7 +18,7 @@ namespace {
 truth::Plane planeOf(const std::vector<std::byte>& halves, glm::uvec2 size, const std::string& what) {
     truth::Plane plane(size.x, size.y);
     if (halves.size() != plane.pixels() * 2)
-        throw app::Complaint(fmt::format("{}: its visibility has another size than the frame", what), app::kFailed);
+        throw app::Complaint(fmt::format("{}: its visibility does not have the frame's size", what), app::kFailed);
     for (size_t i = 0; i < plane.pixels(); ++i) {
         uint16_t half;
         std::memcpy(&half, halves.data() + 2 * i, 2);
@@ -34,7 +34,7 @@ std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options)
     const size_t perFalloff = options.candidates.size(), count = perFalloff * options.falloffs.size();
     app::Progress progress("running methods on " + shot.scene, count * options.rounds);
     std::vector<Drawn> all;
-    std::vector<std::vector<app::Series>> passes(count);  // of each drawing: a pass's medians in the rounds that had it, which rounds may differ in
+    std::vector<std::vector<app::Series>> passes(count);  // per drawing: each pass's medians, of the rounds in which it ran
     std::vector<std::vector<double>> sums(count);
     for (uint32_t round = 0; round < options.rounds; ++round)
         for (size_t i = 0; i < count; ++i) {
@@ -51,7 +51,7 @@ std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options)
     return all;
 }
 
-// The one number a gate needs, in a hundredth of the time.
+// eA alone, which is all that a baseline stores; 1/100 of the time of all metrics.
 std::vector<truth::RegionMetrics> meanError(const truth::Plane& visibility, const truth::Plane& reference, const truth::Mask& valid) {
     truth::Metrics metrics;
     double sum = 0.0;
@@ -64,7 +64,7 @@ std::vector<truth::RegionMetrics> meanError(const truth::Plane& visibility, cons
 }  // namespace
 
 Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao::Falloff& falloff, uint32_t warmUp, uint32_t frames) {
-    // A method that gathers over frames is judged once it has gathered.
+    // A method with a history is measured after its history has converged.
     constexpr uint32_t kGathered = 16;
     const bool gathers = (candidate.info().needs & ao::kMotion) || (candidate.info().needs && candidate.values["temporal"] > 0.0f);
     const Machine::Ran ran = machine.run(gathers ? std::max(warmUp, kGathered) : warmUp, frames, [&](graph::Graph& graph, uint32_t index) {

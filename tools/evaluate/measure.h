@@ -10,12 +10,12 @@ namespace obscura::evaluate {
 // A run of frames with one candidate.
 struct Drawing {
     truth::Plane visibility;
-    std::vector<app::Series> passes;  // the method's own in the last timed frame, as app::Statistics keeps them: a value a frame since they came
-    std::vector<double> own;          // a timed frame: its own passes, summed
-    std::vector<double> rest;         // and what draws the frame whatever the method
-    uint64_t bytes = 0;               // graph::Graph::frameBytes()
+    std::vector<app::Series> passes;  // the method's own passes in the last timed frame; one value per frame since the pass first ran
+    std::vector<double> own;          // per timed frame: sum of the method's own passes
+    std::vector<double> rest;         // per timed frame: sum of the passes that draw the frame for every method
+    uint64_t bytes = 0;               // graph::Executor::frameBytes()
 };
-// Methods that gather over frames are warmed up until they have. Throws app::Complaint where a value is not finite.
+// Methods with a history are warmed up until it has converged. Throws app::Complaint if a value is not finite.
 Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao::Falloff& falloff, uint32_t warmUp, uint32_t frames);
 
 // What one candidate drew with one falloff.
@@ -23,8 +23,8 @@ struct Drawn {
     size_t candidate = 0;                // of Options::candidates
     size_t falloff = 0;                  // of Options::falloffs
     truth::Plane visibility;
-    std::vector<graph::PassTime> passes; // the method's own, medians in milliseconds
-    double milliseconds = 0.0;           // all of them, median of the rounds
+    std::vector<graph::PassTime> passes; // the method's own passes, medians in milliseconds
+    double milliseconds = 0.0;           // sum of the passes, median over rounds
 };
 
 // One line of the tables.
@@ -42,17 +42,17 @@ struct Seconds {
 struct ShotResult {
     std::string scene, camera, remark;
     float time = 0.0f;
-    truth::CapturedFrame frame;          // kept where it is written out; else without pixels
+    truth::CapturedFrame frame;          // with pixels only if it is written to a file
     glm::uvec2 size{0}, guard{0};        // visible part, guard band
     uint32_t every = 1;                  // RayChoice::every
-    std::vector<JudgedBy> references;
+    std::vector<ShotReference> references;
     std::vector<Drawn> drawn;
     std::vector<Row> rows;               // by reference, falloff, candidate
     Seconds seconds;
     bool referencesFromCache = false;
 };
 
-// Six significant digits: what float errors hold. Not finite: 0.
+// Rounded to six significant digits, the precision of float errors. Not finite: 0.
 double digits(double value);
 
 ShotResult measure(Machine& machine, Shot& shot, const Options& options);

@@ -20,7 +20,7 @@ using app::Complaint;
 
 namespace {
 
-constexpr const char* kGallery = "gallery.html";  // the page's name unless one is given; inside --out where that is given
+constexpr const char* kGallery = "gallery.html";  // default name of the page; inside --out if that is given
 
 ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::string& channel) {
     ReferenceChoice choice;
@@ -48,7 +48,7 @@ void listMethods() {
 
 void listScenes() {
     for (const SceneFile& scene : namedScenes())
-        fmt::print("{:<12}{}\n", scene.name, scene.file.empty() ? "not here; " + scene.howToGet : scene.file.string());
+        fmt::print("{:<12}{}\n", scene.name, scene.file.empty() ? "not found; " + scene.howToGet : scene.file.string());
 }
 
 void expectTogether(const Options& options, bool hasSceneOptions) {
@@ -63,7 +63,7 @@ void expectTogether(const Options& options, bool hasSceneOptions) {
     if (!options.capture.empty() && hasSceneOptions)
         throw Complaint("--capture: a captured frame has its own scene, size and time; leave out --scene, --size, --time, --guard and --skip-masked");
     if (options.capture.empty() && options.scenes.empty())
-        throw Complaint("nothing to look at: give --scene NAME, or --capture FRAME.exr with --camera FRAME.json");
+        throw Complaint("no frame: give --scene NAME, or --capture FRAME.exr with --camera FRAME.json");
     if (!options.capture.empty() && options.reference.world)
         throw Complaint("--reference world: a captured frame has no triangles; give screen, or a rendered reference as FILE.exr");
 }
@@ -98,7 +98,7 @@ CameraChoice cameraOf(const std::string& text) {
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
-    CLI::App cli{"Measures ambient-obscurance methods against ray-traced references: error tables, pictures, pages, and a gate on accuracy.",
+    CLI::App cli{"Measures ambient-obscurance methods against ray-traced references: error tables, pictures, an HTML page, and a baseline for regressions.",
                  "obscura-evaluate"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
@@ -109,69 +109,69 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-evaluate --gallery gallery.html\n"
         "  obscura-evaluate --renew-baseline tests/accuracy/baseline.json");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    Judged judged;
+    CandidateOptions chosen;
     std::vector<std::string> falloffTexts, cameras, references;
     std::string size, channel, page, check, renew, capture;
     float time = 0.0f;
     bool list = false, scenesListed = false, noCache = false;
 
-    cli.option_defaults()->group("What is looked at");
+    cli.option_defaults()->group("Frames");
     cli.add_option("--capture", capture, "EXR of a captured frame: Z, and N.X N.Y N.Z where there are normals; needs --camera FILE.json");
     auto* scene = takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas"));
     takeAll(cli.add_option(
         "--camera", cameras,
-        "own (the scene's usual view), scene:N, path:FILE@SECONDS, path:@SECONDS (its own flythrough), FILE.json; several with commas"));
-    auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (0; on a flythrough its own time)");
-    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (640x360; --gallery 480x270)");
+        "own (the view of scenes.json), scene:N, path:FILE@SECONDS, path:@SECONDS (the scene's flythrough), FILE.json; several with commas"));
+    auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (default: 0; on a flythrough the path's time)");
+    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (default: 640x360; with --gallery 480x270)");
     auto* guard = cli.add_option("--guard", options.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
     auto* masked = cli.add_flag("--skip-masked", options.skipMasked,
                                 "Leave alpha-masked surfaces out of frame and reference, as stored references do");
 
     app::addVoxelArguments(cli, options.voxels, cli.option_defaults()->get_group());
 
-    cli.option_defaults()->group("What is judged");
-    addJudged(cli, judged);
-    cli.add_option("--resolve", judged.resolve, "What becomes of their samples: raw, spatial (their own blur), or temporal (and a history); unless said, as the presets have it");
+    cli.option_defaults()->group("Methods");
+    addCandidateOptions(cli, chosen);
+    cli.add_option("--resolve", chosen.resolve, "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history); default: as in the preset");
     takeAll(cli.add_option("--falloff", falloffTexts,
-                           "KIND:LENGTH in metres (quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
-    auto* frames = cli.add_option("--frames", options.frames, "Frames whose times are taken; medians are reported (12; --gallery 7)")
+                           "KIND:LENGTH in metres (default: quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
+    auto* frames = cli.add_option("--frames", options.frames, "Timed frames; medians are reported (default: 12; with --gallery 7)")
                        ->check(CLI::Range(1u, 100000u));
-    cli.add_option("--warm-up", options.warmUp, "Frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
-    cli.add_option("--rounds", options.rounds, "Times the whole list is run, so that a machine's drift hits all methods alike; times are medians over rounds")
+    cli.add_option("--warm-up", options.warmUp, "Untimed frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
+    cli.add_option("--rounds", options.rounds, "Number of rounds; each runs all settings once, so that drift of the machine affects all equally; times are medians over rounds")
         ->check(CLI::Range(1u, 1000u))
         ->capture_default_str();
 
-    cli.option_defaults()->group("Against what");
+    cli.option_defaults()->group("References");
     takeAll(cli.add_option("--reference", references,
                            "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance"));
-    cli.add_option("--channel", channel, "Channel of that EXR (the one named after the falloff: world.quadratic_2)");
-    auto* rays = cli.add_option("--rays", options.rays.rays, "Rays a pixel at most (4096; --gallery 256)")->check(CLI::Range(32u, 1048576u));
-    cli.add_option("--target-error", options.rays.targetError, "Standard error at which a pixel stops; 0 casts all rays")
+    cli.add_option("--channel", channel, "Channel of that EXR (default: named after the falloff, world.quadratic_2)");
+    auto* rays = cli.add_option("--rays", options.rays.rays, "Maximum of rays per pixel (default: 4096; with --gallery 256)")->check(CLI::Range(32u, 1048576u));
+    cli.add_option("--target-error", options.rays.targetError, "Standard error at which tracing a pixel stops; 0: always all rays")
         ->check(CLI::Range(0.0f, 1.0f))
         ->capture_default_str();
-    cli.add_option("--seed", options.rays.seed, "Of the rays")->capture_default_str();
+    cli.add_option("--seed", options.rays.seed, "Seed of the rays")->capture_default_str();
     auto* every = cli.add_option("--every", options.rays.every,
-                                 "Trace and judge every N-th pixel of each row and column alone: a large picture in 1/(N N) of the time; no SSIM and FLIP")
+                                 "Trace and evaluate only every N-th pixel of each row and column: 1/(N N) of the time, no SSIM and FLIP")
                       ->check(CLI::Range(1u, 64u))
                       ->capture_default_str();
-    cli.add_flag("--no-cache", noCache, "Render references anew, keep none (they lie in the user's cache folder)");
+    cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
 
-    cli.option_defaults()->group("What comes out");
+    cli.option_defaults()->group("Output");
     cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference");
     cli.add_option("--out", options.out, "Folder for visibility (EXR, PNG), error pictures, references, metrics.json and metrics.md");
-    cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json, for others");
-    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (gallery.html, inside --out when that is given)")
+    cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json");
+    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (default: gallery.html, inside --out if that is given)")
                         ->expected(0, 1)
                         ->default_str(kGallery);
-    auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's error is worse than this file says");
-    auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's cells when methods are named)");
+    auto* checkOption = cli.add_option("--check-baseline", check, "Fail if a method's error exceeds this baseline");
+    auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the cells of those methods)");
     gallery->excludes(checkOption)->excludes(renewOption);
     checkOption->excludes(renewOption);
-    every->excludes(gallery)->excludes(checkOption)->excludes(renewOption);  // pages show whole pictures, baselines hold whole errors
+    every->excludes(gallery)->excludes(checkOption)->excludes(renewOption);  // pages and baselines need all pixels
 
     addDevice(cli, options.device, options.validation, options.verbose);
     cli.add_flag("--list-methods", list, "Print the methods and their presets");
-    cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and where they are found");
+    cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and their files");
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
     if (list || scenesListed) {
@@ -182,7 +182,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*gallery) {
         options.job = Job::gallery;
         options.page = page == kGallery ? options.out / page : std::filesystem::path(page);
-        if (cli.count("--method") == 0) judged.methods = {"all"};
+        if (cli.count("--method") == 0) chosen.methods = {"all"};
         if (falloffTexts.empty()) falloffTexts = {"quadratic:2", "exponential:1"};
         if (references.empty()) references = {"world", "screen"};
         if (!*frames) options.frames = 7;
@@ -194,8 +194,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     } else if (*checkOption || *renewOption) {
         options.job = *checkOption ? Job::checkBaseline : Job::renewBaseline;
         options.baseline = *checkOption ? check : renew;
-        if (cli.count("--method") == 0) judged.methods = {"all"};
-        if (cli.count("--preset") == 0) judged.presets = {"all"};
+        if (cli.count("--method") == 0) chosen.methods = {"all"};
+        if (cli.count("--preset") == 0) chosen.presets = {"all"};
     }
     options.capture = capture;
     if (!capture.empty()) {
@@ -206,10 +206,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if ((options.usualCameras = options.cameras.empty())) options.cameras.push_back(cameraOf("own"));
         if (options.usualCameras && options.job == Job::gallery) options.cameras.push_back(cameraOf("path:@4"));
     }
-    const std::vector<std::string> sets = judged.allSets();
+    const std::vector<std::string> sets = chosen.allSets();
     if (!sets.empty() && options.job == Job::renewBaseline) throw Complaint("--set: a baseline holds presets as they are");
     if (references.empty()) references = {capture.empty() ? "world" : "screen"};
-    options.candidates = candidates(judged.methods, judged.presets, sets);
+    options.candidates = candidates(chosen.methods, chosen.presets, sets);
     options.falloffs = falloffs(falloffTexts.empty() ? std::vector<std::string>{"quadratic:2"} : falloffTexts);
     options.reference = referenceOf(references, channel);
     if (*timeOption && !std::isfinite(time)) throw Complaint("--time: must be a finite number of seconds");

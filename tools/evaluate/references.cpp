@@ -46,7 +46,7 @@ void append(References& all, const std::string& kind, const truth::Reference& ma
     all.fromCache = all.fromCache && made.fromCache;
 }
 
-// A bar that grows with the share done; tracing is what a user waits for.
+// Progress bar of tracing.
 class Bar {
 public:
     explicit Bar(const std::string& what) : m_progress(what, 100) {}
@@ -80,7 +80,7 @@ void readStored(References& all, const Shot& shot, const Options& options) {
         for (size_t i = 0; i < obscurance.values.size(); ++i)
             if (const float a = obscurance.values[i]; !(a >= -0.001f && a <= 1.001f))
                 throw Complaint(
-                    fmt::format("{}: {} is {} at pixel ({}, {}); obscurance lies from 0 to 1", file, channel, a, i % visible.x, i / visible.x));
+                    fmt::format("{}: {} is {} at pixel ({}, {}); obscurance must be in [0, 1]", file, channel, a, i % visible.x, i / visible.x));
         all.list.push_back({options.reference.file.filename().string() + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
     }
 }

@@ -1,4 +1,4 @@
-// The references a shot is held against: rendered (and kept in the cache) or read from a file.
+// References of a shot: rendered (and cached) or read from a file.
 #pragma once
 
 #include "shot.h"
@@ -6,26 +6,26 @@
 
 namespace obscura::evaluate {
 
-struct JudgedBy {
+struct ShotReference {
     std::string kind;            // "world", "screen", or "FILE.exr:CHANNEL"
     std::string falloff;         // FalloffChoice::text
     std::string fileName;        // "world.quadratic_2"
     truth::Plane visibility;     // visible part
-    float error = 0.0f;          // mean standard error of a pixel; 0 when read from a file
-    float rays = 0.0f;           // mean rays a pixel; 0 when read from a file
+    float error = 0.0f;          // mean standard error of a pixel; 0 if read from a file
+    float rays = 0.0f;           // mean rays per pixel; 0 if read from a file
 };
 
 struct References {
-    std::vector<JudgedBy> list;  // by kind, then falloff
-    double seconds = 0.0;        // making or reading them
-    bool fromCache = false;      // all that were rendered
+    std::vector<ShotReference> list;  // by kind, then falloff
+    double seconds = 0.0;        // time of making or reading them
+    bool fromCache = false;      // all rendered ones came from the cache
     std::vector<std::string> remarks;
 };
 
 // Throws app::Complaint or scene::Error.
 References referencesOf(Machine& machine, const Shot& shot, const Options& options);
 
-// A reference file can be read and has a channel for every falloff: judged before anything is drawn.
+// Checks that the reference file can be read and has a channel for every falloff.
 void expectReferenceFile(const Options& options);
 
 }  // namespace obscura::evaluate

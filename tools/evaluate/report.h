@@ -1,5 +1,4 @@
-// Results as JSON, as tables and as a folder of pictures. Nothing is written before everything has been measured, and
-// every file appears whole.
+// Results as JSON, as tables and as a folder of pictures. Files are written after all measurements, each by renaming a complete file.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -20,12 +19,12 @@ Json rowJson(const ShotResult& shot, const Row& row, const Options& options, con
 Json rowsJson(const std::vector<ShotResult>& shots, const Options& options, const About& about);
 
 std::string markdown(const std::vector<ShotResult>& shots, const Options& options, const About& about);
-// For a terminal, one line a row and what every part took.
+// For a terminal: one line per row, and the time of each stage.
 std::string textTable(const std::vector<ShotResult>& shots, const Options& options, const About& about);
 
 // visibility and error pictures, references, metrics.json, metrics.md.
 void writeFolder(const std::vector<ShotResult>& shots, const Options& options, const About& about);
-// NAME.capture.exr and NAME.json, numbered where there is more than one shot.
+// NAME.capture.exr and NAME.json; with the shot's name if there is more than one.
 void writeCaptures(const std::vector<ShotResult>& shots, const std::filesystem::path& stem);
 std::string shotFileName(const ShotResult& shot);  // "sponza.scene-0"
 

@@ -1,3 +1,4 @@
+// The folder of results: EXR, PNG, metrics.json, metrics.md.
 #include <cctype>
 #include <set>
 
@@ -19,8 +20,8 @@ truth::Picture one(const char* channel, const truth::Plane& plane) {
     return picture;
 }
 
-// The judged pixels alone: where not all are, references and errors are smaller pictures, which nothing takes for whole ones.
-truth::Plane judged(const truth::Plane& plane, uint32_t every) {
+// The evaluated pixels only: with --every, pictures of references and errors are smaller than the frame.
+truth::Plane evaluatedPixels(const truth::Plane& plane, uint32_t every) {
     if (every <= 1) return plane;
     truth::Plane picture((plane.width + every - 1) / every, (plane.height + every - 1) / every);
     for (uint32_t y = 0; y < picture.height; ++y)
@@ -34,12 +35,12 @@ std::string safe(std::string text) {
     return text;
 }
 
-// The references of a shot as one file in the form of stored ones: channels of obscurance, so that --reference reads it.
+// The references of a shot as one EXR of obscurance channels, which --reference can read.
 void writeReferences(const fs::path& stem, const ShotResult& shot) {
     truth::Picture picture;
-    for (const JudgedBy& reference : shot.references) {
+    for (const ShotReference& reference : shot.references) {
         if (picture.find(reference.fileName)) continue;  // a stored channel may serve several falloffs
-        truth::Plane obscurance = judged(reference.visibility, shot.every);
+        truth::Plane obscurance = evaluatedPixels(reference.visibility, shot.every);
         app::writePng(stem.string() + ".reference." + safe(reference.fileName) + ".png", greyPicture(obscurance));
         for (float& value : obscurance.values) value = 1.0f - value;
         picture.add(reference.fileName, std::move(obscurance));
@@ -50,7 +51,7 @@ void writeReferences(const fs::path& stem, const ShotResult& shot) {
 }  // namespace
 
 std::string shotFileName(const ShotResult& shot) {
-    // A camera file is known by its name, wherever it lies.
+    // A camera file counts by its name, without its folder.
     std::string camera = shot.camera.substr(shot.camera.find_last_of('/') + 1);
     if (camera.ends_with(".json")) camera.resize(camera.size() - 5);
     return safe(shot.scene + "." + camera);
@@ -67,10 +68,10 @@ void writeFolder(const std::vector<ShotResult>& shots, const Options& options, c
         }
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
-            const JudgedBy& reference = shot.references[row.reference];
+            const ShotReference& reference = shot.references[row.reference];
             app::writePng(fmt::format("{}.{}.{}.error.{}.png", stem.string(), options.candidates[drawn.candidate].fileName(),
                                       options.falloffs[drawn.falloff].fileName(), safe(reference.fileName.substr(0, reference.fileName.find('.')))),
-                          errorPicture(judged(drawn.visibility, shot.every), judged(reference.visibility, shot.every)));
+                          errorPicture(evaluatedPixels(drawn.visibility, shot.every), evaluatedPixels(reference.visibility, shot.every)));
         }
         writeReferences(stem, shot);
     }

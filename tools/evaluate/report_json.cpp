@@ -1,3 +1,4 @@
+// Results as JSON rows.
 #include "report.h"
 
 namespace obscura::evaluate {
@@ -28,7 +29,7 @@ void putMetrics(Json& json, const truth::Metrics& metrics) {
 
 Json rowJson(const ShotResult& shot, const Row& row, const Options& options, const About& about) {
     const Drawn& drawn = shot.drawn[row.drawn];
-    const JudgedBy& reference = shot.references[row.reference];
+    const ShotReference& reference = shot.references[row.reference];
     const Candidate& candidate = options.candidates[drawn.candidate];
     Json json;
     json["method"] = candidate.info().id;

@@ -1,3 +1,4 @@
+// Results as Markdown and terminal tables.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,10 +11,10 @@ namespace {
 
 std::string shotTitle(const ShotResult& shot) {
     return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px{}", shot.scene, shot.camera, shot.time, shot.size.x, shot.size.y,
-                       shot.guard.x, shot.guard.y, shot.every > 1 ? fmt::format(", judged at every {} x {} px", shot.every, shot.every) : "");
+                       shot.guard.x, shot.guard.y, shot.every > 1 ? fmt::format(", evaluated at every {} x {} px", shot.every, shot.every) : "");
 }
 
-// What is of neighbourhoods is a dash where pixels were judged apart from each other.
+// SSIM and FLIP need neighbouring pixels: a dash with --every.
 std::string perceptual(const truth::Metrics& metrics, float value) { return metrics.perceptual ? fmt::format("{:.4f}", value) : "-"; }
 
 std::string secondsLine(const ShotResult& shot) {
@@ -21,12 +22,12 @@ std::string secondsLine(const ShotResult& shot) {
                        shot.referencesFromCache ? " (cached)" : "", shot.seconds.methods, shot.seconds.metrics);
 }
 
-// How sure the references themselves are.
+// Rays and standard errors of the references.
 std::string referenceLines(const ShotResult& shot, const char* bullet) {
     std::string text;
-    for (const JudgedBy& reference : shot.references)
+    for (const ShotReference& reference : shot.references)
         if (reference.rays > 0.0f)
-            text += fmt::format("{}{} {}: {:.0f} rays a pixel, standard error {:.4f} (means)\n", bullet, reference.kind, reference.falloff,
+            text += fmt::format("{}{} {}: {:.0f} rays per pixel, standard error {:.4f} (means)\n", bullet, reference.kind, reference.falloff,
                                 reference.rays, reference.error);
     return text;
 }
@@ -37,7 +38,7 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
     std::string text = fmt::format(
         "# Error of ambient-obscurance methods\n\n"
         "Errors are of visibility (1 open, 0 blocked), method minus reference, over pixels that are not sky: a positive bias is too bright. eA is the\n"
-        "mean absolute error, e<5% the share of pixels within 0.05, p99 the 99th percentile. g* is the exponent that fits best and eA g* what it leaves.\n"
+        "mean absolute error, e<5% the share of pixels within 0.05, p99 the 99th percentile. g* is the exponent on visibility that fits best, eA g* the error with it.\n"
         "Times are medians of {} frames on {}, the method's own passes; compare them only inside one table.\n",
         about.frames, about.device);
     for (const ShotResult& shot : shots) {
@@ -74,7 +75,7 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             for (const graph::PassTime& pass : drawn.passes) text += fmt::format("{}{} | {:.3f} |\n", lead, pass.name, pass.milliseconds);
             text += fmt::format("{}**all** | {:.3f} |\n", lead, drawn.milliseconds);
         }
-        text += fmt::format("\n{}- time of each part: {}\n", referenceLines(shot, "- "), secondsLine(shot));
+        text += fmt::format("\n{}- time of each stage: {}\n", referenceLines(shot, "- "), secondsLine(shot));
     }
     return text;
 }
@@ -94,7 +95,7 @@ std::string textTable(const std::vector<ShotResult>& shots, const Options& optio
                             "reference", kind, "eA", "e<5%", "bias", "rmse", "p99", "ssim", "flip", "ms");
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
-            const JudgedBy& reference = shot.references[row.reference];
+            const ShotReference& reference = shot.references[row.reference];
             const truth::Metrics& m = row.whole();
             text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:>7} {:>7} {:8.2f}\n",
                                 options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, m.raw.eA,

@@ -1,4 +1,4 @@
-// One frame that methods are judged on, wherever it came from.
+// A shot: one frame on which methods are measured, from a scene or a captured file.
 #pragma once
 
 #include <functional>
@@ -17,26 +17,26 @@ struct Shot {
     std::string camera;   // as in CameraChoice::text, "capture" for a captured frame
     float time = 0.0f;    // seconds
     truth::CapturedFrame frame;
-    std::string remark;   // one line, where something had to be made up
-    double seconds = 0.0; // loading and drawing the frame
+    std::string remark;   // one line, if an input was missing and was reconstructed
+    double seconds = 0.0; // time of loading and drawing the frame
 
-    // The triangles behind the frame, for world references; null for a captured frame. Not posed before it is asked.
+    // The posed triangles for world references, computed on first use; null for a captured frame.
     std::shared_ptr<const scene::World> world;
     bool skipMasked = false;
 
-    // A method's visibility (R16F, visible size) as part of a graph; `index` counts the frames since the last reset.
+    // Adds a method's passes to a graph; returns visibility (R16F, visible size). `index` counts frames since the last reset.
     std::function<graph::ImageId(graph::Graph&, const Candidate&, const ao::Falloff&, uint32_t index)> add;
-    // The library behind `add`.
+    // The library that `add` uses.
     ao::Library* library = nullptr;
-    // Passes of `add` that draw the frame itself, whatever the method: no part of its cost.
+    // Passes of `add` that draw the frame for every method; they do not count as the method's time.
     std::vector<std::string> framePasses;
 };
 
-// A scene loaded and on the GPU. Its shots hold until the machine makes another renderer. Throws app::Complaint or scene::Error.
+// A loaded scene with its GPU data. Its shots are valid until the machine makes another renderer. Throws app::Complaint or scene::Error.
 class LoadedScene {
 public:
     LoadedScene(Machine& machine, const std::string& nameOrPath);
-    // Draws the frame once; options give size, guard band, time and voxels. Nothing where a usual camera is not to be had.
+    // Draws the frame once; options give size, guard band, time and voxels. Empty if a default camera does not exist in the scene.
     std::optional<Shot> shot(const Options& options, const CameraChoice& camera);
     size_t triangles() const { return m_world->triangleCount(); }
 
@@ -44,21 +44,21 @@ private:
     Machine& m_machine;
     SceneFile m_file;
     std::shared_ptr<scene::World> m_world;
-    double m_seconds = 0.0;  // loading, told with the first shot
+    double m_seconds = 0.0;  // loading time, reported with the first shot
 };
 
-// Each shot is made, handed over and dropped before the next, so that one scene is in memory at a time.
+// Makes shots one after the other, so that one scene is in memory at a time.
 using TakeShot = std::function<void(Shot&)>;
 void forEachShot(Machine& machine, const Options& options, const TakeShot& take);
 
-// A frame of render::Outputs as it was read back: linear depth and packed normals, `size` with guard band.
+// A frame read back from render::Outputs: linear depth and packed normals, `size` with guard band.
 truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
                                    const std::vector<std::byte>& normals);
 
-// The two sources behind it.
+// The two sources of forEachShot().
 void captureShot(Machine& machine, const Options& options, const TakeShot& take);
 void sceneShots(Machine& machine, const Options& options, const TakeShot& take);
-// What can be said of scenes and cameras without loading them: names, files. Throws app::Complaint.
+// Checks names and files of scenes and cameras without loading them. Throws app::Complaint.
 void expectScenes(const Options& options);
 size_t shotCount(const Options& options);
 

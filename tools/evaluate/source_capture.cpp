@@ -1,4 +1,4 @@
-// A captured frame as a shot: two files in, its depth and normals on the GPU in the form that methods read.
+// A shot of a captured frame: reads EXR and JSON, uploads depth and normals in the formats that methods read.
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +22,8 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
     for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
 }
 
-// readCapture() takes NAME.json beside NAME.capture.exr. Files of other names and places are led there by links in a
-// folder of their own, and what it complains about is told by the user's names.
+// readCapture() expects NAME.json beside NAME.capture.exr. For other names, links in a temporary folder have that form; error messages name
+// the user's files.
 class Linked {
 public:
     Linked(const fs::path& exr, const fs::path& json) : m_exr(exr), m_json(json) {
@@ -57,7 +57,7 @@ void expectFile(const char* option, const fs::path& file) {
     if (!fs::is_regular_file(file, ignored)) throw Complaint(fmt::format("{} {}: no such file", option, file.string()));
 }
 
-// As shaders/shared/octahedral.glsl has it.
+// Same encoding as shaders/shared/octahedral.glsl.
 uint32_t packNormal(glm::vec3 n) {
     const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     if (!(sum > 0.0f)) return 0;
@@ -66,7 +66,7 @@ uint32_t packNormal(glm::vec3 n) {
     return glm::packSnorm2x16(n.z >= 0.0f ? glm::vec2(n) : folded);
 }
 
-// Depth and packed normals as images; the frame's lens as the library takes it.
+// Depth and packed normals as images, and the frame's view for the library.
 struct OnGpu {
     gpu::Image depth, normals;
     ao::Frame lens;
@@ -124,7 +124,7 @@ void captureShot(Machine& machine, const Options& options, const TakeShot& take)
     constexpr uint32_t kNotCaptured = ao::kMotion | ao::kLayers | ao::kVolume;
     for (const Candidate& candidate : options.candidates)
         if (ao::needs(candidate.values) & kNotCaptured & ~uint32_t(ao::kMotion))
-            throw Complaint(fmt::format("--method {}: needs what a captured frame does not hold (layers or a volume); judge it on a --scene",
+            throw Complaint(fmt::format("--method {}: needs depth layers or a volume, which a captured frame does not have; measure it on a --scene",
                                         candidate.label()));
     shot.library = &machine.library();
     const std::shared_ptr<OnGpu> images = onGpu(machine.device(), shot.frame);
@@ -132,8 +132,8 @@ void captureShot(Machine& machine, const Options& options, const TakeShot& take)
         ao::Frame lens = images->lens;
         lens.index = index;
         const ao::Sources sources{import(graph, "captured depth", images->depth), import(graph, "captured normals", images->normals), {}, true};
-        if (index == 0) library.reset();
-        return library.add(graph, lens, sources, falloff, candidate.values);
+        if (index == 0) library.discardHistory();
+        return library.add(graph, lens, sources, falloff, candidate.values).visibility;
     };
     shot.seconds = (app::now() - begun) * 1e-3;
     take(shot);

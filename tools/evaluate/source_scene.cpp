@@ -1,4 +1,4 @@
-// Shots of scenes: the sample's own renderer draws depth and normals, and runs the methods just as the game does.
+// Shots of scenes: the sample's renderer draws depth and normals and runs the methods as in the game.
 #include <algorithm>
 #include <cstring>
 
@@ -15,7 +15,7 @@ using app::Complaint;
 
 namespace {
 
-// The file a path camera names: as given, or below a content folder; empty: the scene's own.
+// The file of a path camera: as given, or below a content folder; empty: the scene's flythrough.
 std::optional<fs::path> pathFile(const CameraChoice& choice, const SceneFile& file) {
     if (choice.file.empty()) return file.flythrough;
     std::error_code ignored;
@@ -23,7 +23,7 @@ std::optional<fs::path> pathFile(const CameraChoice& choice, const SceneFile& fi
     return findContent(choice.file.string());
 }
 
-// Nothing where a usual camera is not to be had.
+// Empty if a default camera does not exist in the scene.
 std::optional<scene::Camera> cameraFor(const CameraChoice& choice, const SceneFile& file, const scene::World* world, float time, bool usual) {
     switch (choice.kind) {
         case CameraChoice::Kind::path: {
@@ -69,7 +69,7 @@ render::FrameOptions frameOptions(const Options& options, const scene::Camera& c
     frame.guard = options.guard;
     frame.camera = camera;
     frame.time = time;
-    frame.view = render::View::visibility;  // nothing needs light
+    frame.view = render::View::visibility;  // without lighting
     frame.skipMasked = options.skipMasked;
     frame.voxels = options.voxels;
     return frame;
@@ -120,7 +120,7 @@ size_t shotCount(const Options& options) { return options.capture.empty() ? opti
 LoadedScene::LoadedScene(Machine& machine, const std::string& name) : m_machine(machine), m_file(findScene(name)), m_world(std::make_shared<scene::World>()) {
     const double begun = app::now();
     m_world->add({.model = scene::loadGltf(m_file.file)});
-    if (m_world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: nothing in it can be drawn; it needs at least one triangle", name));
+    if (m_world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: contains nothing to draw; it needs at least one triangle", name));
     if (machine.newRenderer().load(*m_world) != gpu::Status::ok)
         throw Complaint(fmt::format("{}: cannot be uploaded to {}", m_file.file.string(), machine.deviceName()), app::kFailed);
     m_seconds = (app::now() - begun) * 1e-3;

@@ -24,10 +24,10 @@ using app::Complaint;
 
 namespace {
 
-constexpr uint32_t kMeasure = 2;  // counts changes to what is measured, so that parts of older programs are not taken up
+constexpr uint32_t kMeasure = 2;  // version of the measurement; chunks of other versions are measured again
 constexpr uint32_t kStillWarmUp = 32, kStillFrames = 32;
 
-// Values as they are, not encoded: what a number view shows.
+// Linear values, without sRGB encoding.
 app::Picture grey(const truth::Plane& plane) {
     app::Picture picture{plane.width, plane.height, {}};
     for (const float v : plane.values) {
@@ -37,7 +37,7 @@ app::Picture grey(const truth::Plane& plane) {
     return picture;
 }
 
-// A method runs shaders of its own folder and what all share.
+// A method uses shaders of its own folder and shared ones.
 bool mayRun(const evaluate::Candidate& candidate, std::string_view shader) {
     if (shader == "ao/common/temporal.comp") return hasHistory(candidate);
     return shader.starts_with("ao/common/") || shader.starts_with(fmt::format("ao/{}/", candidate.info().id)) ||
@@ -134,7 +134,7 @@ void Flight::trace() {
         const std::vector<scene::PosedPrimitive> primitives = scene::pose(m_stage.worldAt(frame), m_stage.worldTimeAt(frame));
         const std::string key = truth::worldKey(primitives, {}, m_geometry[frame].frame, falloffs, rays);
         const truth::Reference reference = cache.get(key, [&] { return truth::WorldReference(primitives).trace(m_geometry[frame].frame, falloffs, rays); });
-        // The game finds it by what it knows before it draws.
+        // The game looks references up by this key, which it knows before drawing.
         cache.note(truth::viewKey(m_stage.worldAt(frame), m_stage.worldTimeAt(frame), m_stage.cameraAt(frame), m_settings.size, {}, falloffs[0]), key);
         m_references[frame] = {reference.channels[0].obscurance, reference.channels[0].error};
         for (float& v : m_references[frame].visibility.values) v = 1.0f - v;
@@ -157,8 +157,8 @@ std::string Flight::keyOf(const evaluate::Candidate& candidate, const ao::Preset
     }
     for (const Event& event : script.events)
         hash.add(event.frame).add(event.box).add(&event.size, sizeof(event.size)).add(&event.at, sizeof(event.at)).add(int(event.gone));
-    hash.add(m_geometry[0].frame.depth.data(), m_geometry[0].frame.depth.size() * sizeof(float));  // stands for the scene
-    for (const gpu::EmbeddedShader& shader : ao::shaders())  // and these for the method
+    hash.add(m_geometry[0].frame.depth.data(), m_geometry[0].frame.depth.size() * sizeof(float));  // identifies the scene
+    for (const gpu::EmbeddedShader& shader : ao::shaders())  // identify the method
         if (mayRun(used, shader.name)) hash.add(shader.spirv.data(), shader.spirv.size_bytes());
     return hash.hex();
 }

@@ -30,7 +30,7 @@ std::map<CalmKey, CalmRow> measureRows(const Calm& calm, const Options& options)
         Flight flight(machine, findScript(name), settings);
         for (const evaluate::Candidate& candidate : options.candidates)
             for (const ao::Preset& filter : ao::resolvePresets()) {
-                if (!candidate.info().needs) continue;  // draws nothing that could flicker
+                if (!candidate.info().needs) continue;  // `none` cannot flicker
                 if (std::find(calm.filters.begin(), calm.filters.end(), filter.id) == calm.filters.end()) continue;
                 const Part part = flight.measure(candidate, filter);
                 const Summary summary = summarize(part);
@@ -70,7 +70,7 @@ Calm readCalm(const fs::path& file) {
 }
 
 std::string calmText(const Calm& calm) {
-    // Written by hand, so that a row is a line and a renewal reads well as a difference.
+    // Not dumped by the JSON library: one line per row keeps diffs readable.
     const Json head{{"about", "Flicker of error, static noise and lag (frames). A row may not worsen by more than `relative` of itself and `absolute`. Renew: "
                               "obscura-flythrough --renew-baseline THIS"},
                     {"size", {calm.size.x, calm.size.y}}, {"length", calm.length}, {"rays", calm.rays}, {"relative", calm.relative},
@@ -95,7 +95,7 @@ std::vector<std::string> judge(const Calm& held, const std::map<CalmKey, CalmRow
     for (const auto& [key, row] : measured) {
         const auto found = held.rows.find(key);
         if (found == held.rows.end()) {
-            lines.push_back(fmt::format("{}: not held yet (flicker of error {:.5f}, noise {:.5f}, T90 {})", name(key), row.flickerOfError, row.noise, row.t90));
+            lines.push_back(fmt::format("{}: not in the baseline (flicker of error {:.5f}, noise {:.5f}, T90 {})", name(key), row.flickerOfError, row.noise, row.t90));
             continue;
         }
         const CalmRow& was = found->second;
@@ -112,7 +112,7 @@ int checkBaseline(const Options& options) {
     const std::vector<std::string> lines = judge(held, measured);
     for (const std::string& line : lines) fmt::print("  {}\n", line);
     if (lines.empty()) fmt::print("passed: {} rows, none worse by more than {:g} %\n", measured.size(), 100.0 * held.relative);
-    else fmt::print("failed: {} of {} rows. If that is meant to be so: obscura-flythrough --renew-baseline {}\n", lines.size(), measured.size(), options.baseline.string());
+    else fmt::print("failed: {} of {} rows. If this change is intended: obscura-flythrough --renew-baseline {}\n", lines.size(), measured.size(), options.baseline.string());
     return lines.empty() ? 0 : app::kFailed;
 }
 
@@ -122,7 +122,7 @@ int renewBaseline(const Options& options) {
     Calm calm;
     if (fs::is_regular_file(options.baseline, ignored)) calm = readCalm(options.baseline);
     const std::map<CalmKey, CalmRow> measured = measureRows(calm, options);
-    // All of it anew, or the chosen methods' rows among the others.
+    // Replaces all rows, or those of the selected methods only.
     if (options.candidates.size() == evaluate::candidates({"all"}, {"default"}, {}).size()) calm.rows.clear();
     for (const auto& [key, row] : measured) calm.rows[key] = row;
     app::writeFile(options.baseline, calmText(calm));

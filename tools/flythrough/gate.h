@@ -1,4 +1,4 @@
-// The gate on calm: every method's flicker and lag on short flythroughs, held against a file in the repository.
+// The stability baseline: flicker, static noise and lag of every method on short flythroughs, compared with a file in the repository.
 #pragma once
 
 #include <map>
@@ -17,17 +17,17 @@ using CalmKey = std::tuple<std::string, std::string, std::string, std::string>; 
 struct Calm {
     glm::uvec2 size{112, 63};
     uint32_t length = 32, rays = 256;
-    double relative = 0.05, absolute = 1e-4;  // a row may worsen by the larger of the two; T90 by `relative` of itself
+    double relative = 0.05, absolute = 1e-4;  // a row may grow by the larger of the two; T90 by `relative` of itself
     std::vector<std::string> flythroughs{"teleport", "close-up"}, filters{"spatial", "temporal"};
     std::map<CalmKey, CalmRow> rows;
 };
 Calm readCalm(const std::filesystem::path& file);  // throws scene::Error
 std::string calmText(const Calm& calm);
 
-// Lines on what became worse and on what the file does not hold; empty: passed.
+// Lines on rows that became worse and on rows missing from the file; empty: passed.
 std::vector<std::string> judge(const Calm& held, const std::map<CalmKey, CalmRow>& measured);
 
-// Both return an exit code and print what they found.
+// Both print their result and return an exit code.
 int checkBaseline(const Options& options);
 int renewBaseline(const Options& options);
 

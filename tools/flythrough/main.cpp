@@ -1,4 +1,4 @@
-// Reads the command line, flies, writes; turns every failure into one line and an exit code.
+// Entry point of obscura-flythrough: parses the command line, runs the job, writes the results; a failure is one line and an exit code.
 #include <algorithm>
 #include <cstdio>
 
@@ -60,10 +60,10 @@ int merge(const Options& options) {
     std::vector<Part> parts;
     for (const fs::path& folder : options.merged) {
         const std::vector<fs::path> files = partFiles(folder);
-        if (files.empty()) throw app::Complaint(fmt::format("--merge {}: holds no parts of a run; name folders that --out of earlier runs named", folder.string()));
+        if (files.empty()) throw app::Complaint(fmt::format("--merge {}: contains no chunks of a run; name folders that earlier runs wrote with --out", folder.string()));
         for (const fs::path& file : files) {
             const auto part = readPart(file);
-            if (!part) throw app::Complaint(fmt::format("{}: is damaged; fly these frames again", file.string()));
+            if (!part) throw app::Complaint(fmt::format("{}: is damaged; measure these frames again", file.string()));
             parts.push_back(*part);
         }
         std::error_code ignored;

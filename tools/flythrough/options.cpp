@@ -38,54 +38,54 @@ void listFlythroughs() {
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
-    CLI::App cli{"Flies a camera through animated scenes with every method and measures what it shows against ray-traced references: errors in space, "
-                 "flicker, noise and lag in time.",
+    CLI::App cli{"Renders camera flights through animated scenes with every method and measures, against ray-traced references, errors, "
+                 "flicker, noise and lag.",
                  "obscura-flythrough"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(
-        "Writes to --out: frames/ (PNG), one MP4 a method and one side by side, frames.csv, events.csv, static.csv, passes.csv, report.json, report.md and\n"
-        "report.html. A run that was interrupted goes on where it stopped.\n\n"
+        "Writes to --out: frames/ (PNG), one MP4 per method and one side by side, frames.csv, events.csv, static.csv, passes.csv, report.json, report.md and\n"
+        "report.html. An interrupted run resumes with the same command.\n\n"
         "Examples:\n"
         "  obscura-flythrough --flythrough teleport --method hbao,horizon_split --out out/teleport\n"
         "  obscura-flythrough --flythrough all --method all --print-jobs 8 --out /share/run | parallel\n"
         "  obscura-flythrough --merge /share/run/part-0,/share/run/part-1 --out /share/run/all");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    evaluate::Judged judged;
+    evaluate::CandidateOptions chosen;
     std::vector<std::string> filters{"raw", "spatial", "temporal"}, merged;
     std::string size, frames, falloff, out = "out/flythrough", check, renew;
     bool list = false, noPictures = false, noVideo = false, noCache = false;
     using evaluate::takeAll;
 
-    cli.option_defaults()->group("What is flown");
-    takeAll(cli.add_option("--flythrough", options.flythroughs, "By name, several with commas, or all (content/flythroughs.json; --list prints them), or FILE.json, a path that the game recorded"));
+    cli.option_defaults()->group("Flythrough");
+    takeAll(cli.add_option("--flythrough", options.flythroughs, "By name, several with commas, or all (content/flythroughs.json; --list prints them), or FILE.json, a path recorded by the game"));
     cli.add_option("--length", options.settings.length, "Frames of the whole flythrough")->check(CLI::Range(2u, 100000u))->capture_default_str();
-    cli.add_option("--frames", frames, "FIRST:END: measure these alone, so that a long run splits over machines (--merge joins them)");
-    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (320x180)");
+    cli.add_option("--frames", frames, "FIRST:END: measure only these frames, to split a run over machines (--merge joins the chunks)");
+    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (default: 320x180)");
     cli.add_option("--guard", options.settings.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
 
-    cli.option_defaults()->group("What is judged");
-    addJudged(cli, judged);
-    takeAll(cli.add_option("--modes,--filter", filters, "Resolve presets: raw (no blur, no history), spatial (the preset's own blur), temporal (and a history)")->capture_default_str());
-    cli.add_option("--falloff", falloff, "KIND:LENGTH instead of the flythrough's own");
-    cli.add_option("--rays", options.settings.rays, "Rays a pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
-    cli.add_option("--seed", options.settings.seed, "Of the rays")->capture_default_str();
-    cli.add_flag("--no-cache", noCache, "Trace references anew, keep none (they lie in the user's cache folder)");
+    cli.option_defaults()->group("Methods");
+    addCandidateOptions(cli, chosen);
+    takeAll(cli.add_option("--modes,--filter", filters, "Resolve presets: raw (no blur, no history), spatial (the preset's blur), temporal (blur and history)")->capture_default_str());
+    cli.add_option("--falloff", falloff, "KIND:LENGTH; replaces the flythrough's falloff");
+    cli.add_option("--rays", options.settings.rays, "Rays per pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
+    cli.add_option("--seed", options.settings.seed, "Seed of the rays")->capture_default_str();
+    cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
 
-    cli.option_defaults()->group("What comes out");
+    cli.option_defaults()->group("Output");
     cli.add_option("--out", out, "Folder of the results")->capture_default_str();
-    cli.add_flag("--no-pictures", noPictures, "Numbers alone");
-    cli.add_flag("--no-video", noVideo, "Pictures, but no videos (those need ffmpeg)");
-    cli.add_flag("--again", options.again, "Measure anew what the folder holds already");
-    takeAll(cli.add_option("--merge", merged, "Folders of runs over parts of the frames: join them in --out, measure nothing"));
-    cli.add_option("--print-jobs", options.jobs, "Print this run as so many commands, one a line, and do nothing else (pipe them into GNU parallel)")
+    cli.add_flag("--no-pictures", noPictures, "No pictures and no videos");
+    cli.add_flag("--no-video", noVideo, "No videos (they need ffmpeg)");
+    cli.add_flag("--again", options.again, "Measure again instead of resuming from the folder");
+    takeAll(cli.add_option("--merge", merged, "Folders of runs over chunks of the frames: join them in --out, measure nothing"));
+    cli.add_option("--print-jobs", options.jobs, "Split the run into this many commands, print them one per line (for GNU parallel), and exit")
         ->check(CLI::Range(1u, 100000u));
-    cli.add_flag("--slurm", options.slurm, "With --print-jobs: a Slurm array script instead (sbatch it)");
-    auto* checkOption = cli.add_option("--check-baseline", check, "Fail when a method's flicker or lag is worse than this file says");
-    cli.add_option("--renew-baseline", renew, "Measure anew and write the file (only --method's rows when methods are named)")->excludes(checkOption);
+    cli.add_flag("--slurm", options.slurm, "With --print-jobs: print a Slurm array script for sbatch");
+    auto* checkOption = cli.add_option("--check-baseline", check, "Fail if a method's flicker, noise or lag exceeds this baseline");
+    cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the rows of those methods)")->excludes(checkOption);
 
     evaluate::addDevice(cli, options.device, options.validation, options.verbose);
-    cli.add_flag("--list", list, "Print the flythroughs there are");
+    cli.add_flag("--list", list, "Print the names of the flythroughs");
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
     if (list) {
@@ -106,23 +106,23 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (gate) {
         options.job = check.empty() ? Job::renewBaseline : Job::checkBaseline;
         options.baseline = check.empty() ? renew : check;
-        if (cli.count("--method") == 0) judged.methods = {"all"};
+        if (cli.count("--method") == 0) chosen.methods = {"all"};
     } else if (options.flythroughs.empty()) {
-        throw Complaint("nothing to fly: give --flythrough NAME, or all (--list prints the names)");
+        throw Complaint("no flythrough: give --flythrough NAME, or all (--list prints the names)");
     }
     if (options.flythroughs == std::vector<std::string>{"all"}) {
         options.flythroughs.clear();
         for (const Script& script : scripts()) options.flythroughs.push_back(script.name);
     }
     for (const std::string& flythrough : options.flythroughs) findScript(flythrough);
-    options.candidates = evaluate::candidates(judged.methods, judged.presets, judged.allSets());
+    options.candidates = evaluate::candidates(chosen.methods, chosen.presets, chosen.allSets());
     for (const std::string& filter : filters) options.filters.push_back(&evaluate::resolvePreset("--modes " + filter, filter));
     if (*sizeOption) options.settings.size = app::sizeOf(size);
     if (!falloff.empty()) options.settings.falloff = evaluate::falloffs({falloff})[0];
     setFrames(frames, options.settings);
-    if (options.slurm && !options.jobs) throw Complaint("--slurm: goes with --print-jobs N, the number of parts");
+    if (options.slurm && !options.jobs) throw Complaint("--slurm: needs --print-jobs N, the number of jobs");
     if (options.jobs) {
-        if (!frames.empty()) throw Complaint("--print-jobs: shares out all frames; leave out --frames");
+        if (!frames.empty()) throw Complaint("--print-jobs: splits all frames; leave out --frames");
         if (options.jobs > options.settings.length) throw Complaint(fmt::format("--print-jobs {}: there are only {} frames", options.jobs, options.settings.length));
         options.job = Job::printJobs;
         options.program = app::shellWord(argv[0]);

@@ -1,4 +1,4 @@
-// The command line as a struct. Everything that can be judged without a device or a scene is judged here.
+// The command line as a struct. Parsing checks everything that needs neither a device nor a scene.
 #pragma once
 
 #include "flight.h"
@@ -14,20 +14,20 @@ struct Options {
     std::vector<const ao::Preset*> filters;   // of ao::resolvePresets()
     Settings settings;                             // out and pictures included
     bool video = true;
-    bool again = false;                            // measure what is there already, too
-    std::vector<std::filesystem::path> merged;     // folders of parts
+    bool again = false;                            // measure again what an earlier run measured
+    std::vector<std::filesystem::path> merged;     // folders of runs to merge
     std::filesystem::path baseline;
     uint32_t jobs = 0;
     bool slurm = false;
-    std::string program, arguments;                // for --print-jobs: argv[0] and what each job repeats, as words of a shell
+    std::string program, arguments;                // for --print-jobs: argv[0] and the arguments of every job, quoted for a shell
     std::string device, validation = "off";
     bool verbose = false;
 };
 
-// Throws app::Complaint. Nothing when the line asked for help or a list, which has been printed.
+// Throws app::Complaint. Empty after printing help or a list.
 std::optional<Options> parseOptions(int argc, const char* const* argv);
 
-// The same run in `jobs` parts, one command a line for GNU parallel, or a Slurm array script; the merge comes last, as a comment.
+// The run as `jobs` chunks: one command per line for GNU parallel, or a Slurm array script. The last line is a comment with the merge.
 std::string jobList(const Options& options);
 
 }  // namespace obscura::flythrough

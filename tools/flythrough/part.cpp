@@ -108,10 +108,10 @@ std::vector<Part> joined(std::vector<Part> parts) {
             continue;
         }
         const std::string what = all.name();
-        if (part.key != all.key) throw app::Complaint(fmt::format("{}: parts of different settings; size, rays, falloff and program must agree", what));
+        if (part.key != all.key) throw app::Complaint(fmt::format("{}: chunks with different settings; size, rays, falloff and program must be equal", what));
         if (part.first != all.end)
-            throw app::Complaint(fmt::format("{}: frames {} to {} are {}; give every part once", what, std::min(part.first, all.end),
-                                             std::max(part.first, all.end) - 1, part.first > all.end ? "missing" : "there twice"));
+            throw app::Complaint(fmt::format("{}: frames {} to {} are {}; give every chunk once", what, std::min(part.first, all.end),
+                                             std::max(part.first, all.end) - 1, part.first > all.end ? "missing" : "given twice"));
         all.end = part.end;
         all.frames.insert(all.frames.end(), part.frames.begin(), part.frames.end());
         all.events.insert(all.events.end(), part.events.begin(), part.events.end());

@@ -1,5 +1,5 @@
-// What one method measured on one flythrough: kept as a file, so that an interrupted run goes on where it stopped and
-// machines can share one. A part says nothing of how fast it ran but in `passes`: everything else is the same bytes each time.
+// A chunk of a run (Part): measurements of one method on some or all frames of one flythrough. Saved as a file in OUT/parts, so that runs
+// can be resumed and split over machines. Everything but `passes` is deterministic.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,8 @@ struct FrameRow {
     float time = 0.0f;                 // s
     // Of visibility against the world reference, over pixels that are not sky.
     float eA = 0.0f, bias = 0.0f, rmse = 0.0f;
-    // From the frame before along motion vectors (truth/stability.h); `share` of the pixels could be followed. Zero at the first.
+    // Change from the previous frame along motion (truth/stability.h), over the fraction `share` of pixels found in it. 0 in the first
+    // frame.
     float share = 0.0f, difference = 0.0f, referenceDifference = 0.0f, flickerOfError = 0.0f, referenceFlicker = 0.0f;
 };
 
@@ -23,25 +24,25 @@ struct EventRow {
     float ghost = 0.0f;
 };
 
-struct StaticRow { float mean = 0.0f, p99 = 0.0f; };  // standard deviations over frames, camera and scene still
+struct StaticRow { float mean = 0.0f, p99 = 0.0f; };  // standard deviations over frames with fixed camera and scene
 struct PassRow { std::string name; double median = 0.0, p95 = 0.0; };  // ms
 
 struct Part {
-    std::string key;                   // of everything that determines the rows
+    std::string key;                   // hash of everything that determines the rows
     std::string flythrough, method, preset, settings, filter, falloff;
     uint32_t width = 0, height = 0, rays = 0;
-    uint32_t first = 0, end = 0;       // frames measured here
+    uint32_t first = 0, end = 0;       // frames of this chunk
     std::vector<FrameRow> frames;
     std::vector<EventRow> events;      // those that begin in [first, end)
-    std::optional<StaticRow> still;    // by the part that holds frame 0
-    std::vector<PassRow> passes;       // the method's own
-    std::string pictures;              // folder of the frames' pictures, relative to the report; empty: none were kept
+    std::optional<StaticRow> still;    // only in the chunk with frame 0
+    std::vector<PassRow> passes;       // the method's own passes
+    std::string pictures;              // folder of the frames' pictures, relative to the report; empty: no pictures
 
     std::string label() const;         // "hbao tuned steps=4"
     std::string name() const;          // "teleport.hbao.temporal", safe as a file name
 };
 
-// One row a part: means over its frames, worst over its events.
+// Summary of a chunk: means over its frames, worst value over its events.
 struct Summary {
     double eA = 0.0, bias = 0.0;                  // mean over frames
     double difference = 0.0, excess = 0.0;        // mean D_A, mean F
@@ -49,20 +50,21 @@ struct Summary {
     double noiseMean = 0.0, noiseP99 = 0.0;       // static
     uint32_t t90 = 0;                             // worst event
     double ghost = 0.0;                           // summed over events
-    double milliseconds = 0.0;                    // medians of its passes, summed
+    double milliseconds = 0.0;                    // sum of the medians of its passes
     uint32_t worst = 0;                           // frame of the largest eA
 };
 Summary summarize(const Part& part);
 
 std::string partText(const Part& part);
-// Nothing when the file is missing or is not one of ours.
+// Empty if the file is missing or not a chunk.
 std::optional<Part> readPart(const std::filesystem::path& file);
 
-// Parts of the same key become one, frames in order. Throws app::Complaint when two disagree or a frame is missing in between.
+// Joins chunks of the same flythrough, method and filter, frames in order. Throws app::Complaint if keys differ or frames are missing or
+// double.
 std::vector<Part> joined(std::vector<Part> parts);
 
-// One line a frame, an event, a standstill, a pass: with a head line each. The first three are the same bytes however the
-// frames were shared out.
+// CSV with a header line: one line per frame, event, static measurement, pass. The first three do not depend on how the run was split, byte
+// for byte.
 std::string framesCsv(const std::vector<Part>& parts);
 std::string eventsCsv(const std::vector<Part>& parts);
 std::string staticCsv(const std::vector<Part>& parts);

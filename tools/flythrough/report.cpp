@@ -24,7 +24,7 @@ namespace {
 
 std::string bareKey(const Part& part) { return part.flythrough + "/" + part.label(); }
 
-// F_e of the raw pictures, which the filters are held against.
+// F_e of the raw pictures, to which the filters are compared.
 std::map<std::string, double> rawFlicker(const std::vector<Part>& parts) {
     std::map<std::string, double> result;
     for (const Part& part : parts)
@@ -98,7 +98,7 @@ Json summaryJson(const Part& part) {
     return json;
 }
 
-// To a temporary name, then renamed; false when ffmpeg failed.
+// Writes to a temporary name and renames; false if ffmpeg failed.
 bool encode(const std::string& inputs, const std::string& filter, const fs::path& file) {
     fs::path temporary = file;
     temporary += ".part.mp4";
@@ -133,7 +133,7 @@ void writeReport(const std::vector<Part>& parts, const std::string& device, cons
 
 void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
     if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {
-        fmt::print(stderr, "obscura-flythrough: no ffmpeg here, so no videos; install the package ffmpeg and run the same line again\n");
+        fmt::print(stderr, "obscura-flythrough: no videos, because ffmpeg is missing; install the package ffmpeg and run the same command again\n");
         return;
     }
     std::map<std::string, std::vector<const Part*>> groups;
@@ -154,7 +154,7 @@ void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
         for (const Part* part : list) {
             progress.at(done++, part->name());
             const fs::path folder = out / part->pictures;
-            // yuv420p wants even sides.
+            // yuv420p requires even sides.
             if (!encode(sequence(folder, part->first), "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2'", out / (part->name() + ".mp4")))
                 fmt::print(stderr, "obscura-flythrough: ffmpeg could not encode {}\n", folder.string());
             add(folder, part->first);

@@ -57,7 +57,7 @@ Script scriptOf(const scene::JsonAt& at) {
     return script;
 }
 
-// Half a metre to every side, six faces of their own normals.
+// A unit cube, 1 m, with face normals.
 std::shared_ptr<const scene::Model> unitBox() {
     auto model = std::make_shared<scene::Model>();
     model->name = "box";
@@ -98,7 +98,7 @@ std::filesystem::path pathFile(const Script& script) {
     return *found;
 }
 
-// A path that somebody flew: of its own scene, from its first key or "@SECONDS" on.
+// A recorded path, in the scene that it names, from its first key or from "@SECONDS".
 Script recorded(const std::string& text) {
     const size_t mark = text.rfind('@');
     Script script;
@@ -148,7 +148,7 @@ Script findScript(const std::string& name) {
 
 Stage::Stage(const Script& script) : m_script(script) {
     m_world.add({.model = scene::loadGltf(evaluate::findScene(script.scene).file)});
-    if (m_world.triangleCount() == 0) throw Complaint(fmt::format("{}: nothing in {} can be drawn", script.name, script.scene));
+    if (m_world.triangleCount() == 0) throw Complaint(fmt::format("{}: {} contains nothing to draw", script.name, script.scene));
     if (!script.camera) m_path = scene::loadCameraPath(pathFile(script));
     if (!script.events.empty()) m_box = unitBox();
 }

@@ -1,4 +1,4 @@
-// What is flown: entries of content/flythroughs.json, made into a world and a camera for every frame.
+// Flythroughs: entries of content/flythroughs.json, and the world and camera of every frame.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace obscura::flythrough {
 
-// A box that comes, moves or goes at a frame: an occluder whose receivers stay. Same name: same box.
+// A box that appears, moves or disappears at a frame: a changing occluder above fixed receivers. Equal names are one box.
 struct Event {
     uint32_t frame = 0;
     std::string box;
@@ -23,8 +23,8 @@ struct Event {
 struct Script {
     std::string name, title;
     std::string scene;                         // of content/scenes.json, or a glTF file
-    std::optional<scene::Camera> camera;       // stands still
-    std::filesystem::path path;                // or flies
+    std::optional<scene::Camera> camera;       // fixed camera
+    std::filesystem::path path;                // or camera path
     float start = 0.0f;                        // s, of path and animations
     float framesPerSecond = 30.0f;
     bool animated = true;                      // false: animations stand still at `start`
@@ -34,13 +34,13 @@ struct Script {
     float timeAt(uint32_t frame) const { return start + float(frame) / framesPerSecond; }
 };
 
-// All of the manifest. Throws scene::Error or app::Complaint.
+// All entries of the manifest. Throws scene::Error or app::Complaint.
 std::vector<Script> scripts();
-// By name, or "FILE.json", "FILE.json@SECONDS": a recorded camera path. Throws app::Complaint that lists what there is. Its scene and
-// path are there.
+// By name, or "FILE.json", "FILE.json@SECONDS": a recorded camera path. Throws app::Complaint, which lists the known
+// names. The files of its scene and path exist.
 Script findScript(const std::string& name);
 
-// A script ready to be drawn.
+// A loaded script.
 class Stage {
 public:
     explicit Stage(const Script& script);      // loads; throws
@@ -54,7 +54,7 @@ private:
     scene::World m_world;
     scene::CameraPath m_path;
     std::shared_ptr<const scene::Model> m_box;
-    std::map<std::string, uint32_t> m_boxes;   // instances that stand in m_world, by name
+    std::map<std::string, uint32_t> m_boxes;   // instances of boxes in m_world, by name
 };
 
 }  // namespace obscura::flythrough

@@ -37,7 +37,7 @@ void onLine(void* user, ao::Severity severity, const char* line) {
     if (severity == ao::Severity::error) static_cast<std::vector<std::string>*>(user)->push_back(line);
 }
 
-// Makes the device and a context with every method; what fails goes to `missing`.
+// Creates the device and a context with every method; appends failures to `missing`.
 void prove(const Functions& vk, VkPhysicalDevice physical, uint32_t family, std::vector<std::string>& missing) {
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kUsage =
     "obscura-info [--methods | --devices]\n"
     "Prints the library's version, its methods, and whether each Vulkan device of this machine can run it.\n"
-    "Ends with 0 if a device can, 1 if none can, 77 if there is no Vulkan device.\n";
+    "Exit code: 0 if a device can, 1 if none can, 77 if there is no Vulkan device.\n";
 
 void printMethods() {
     for (const obscura::ao::MethodInfo* method : obscura::ao::methods()) std::printf("  %-18s %s\n", method->id, method->title);

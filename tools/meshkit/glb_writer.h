@@ -1,3 +1,4 @@
+// Writes a scene as GLB 2.0.
 #pragma once
 
 #include "meshkit/scene.h"

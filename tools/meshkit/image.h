@@ -1,3 +1,4 @@
+// 8-bit RGBA pictures, tileable noise, PNG encoding.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ float tileableNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed);
 /// Several octaves of tileable noise, in [0, 1].
 float fractalNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed, int octaves);
 
-/// A number in [0, 1) that depends on nothing but the arguments.
+/// A pseudo-random number in [0, 1), a hash of the arguments.
 float hash01(std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
 
 } // namespace obscura::kit

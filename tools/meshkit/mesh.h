@@ -1,3 +1,4 @@
+// Indexed triangle meshes: normals, texture coordinates, skinning weights, morph targets.
 #pragma once
 
 #include <array>
@@ -54,7 +55,7 @@ struct MorphTarget {
     std::vector<glm::vec3> normalDeltas;
 };
 
-/// A finished mesh with what animates it.
+/// A mesh with its skinning weights and morph targets.
 struct Geometry {
     Mesh mesh;
     std::vector<SkinInfluence> skin;

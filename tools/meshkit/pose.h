@@ -1,3 +1,4 @@
+// Evaluates a scene's animation: node transforms and deformed vertices.
 #pragma once
 
 #include "meshkit/scene.h"

@@ -1,3 +1,4 @@
+// The scene of a content generator, after glTF's model: materials, meshes, nodes, skins, cameras, one animation.
 #pragma once
 
 #include "meshkit/image.h"
@@ -12,7 +13,7 @@ namespace obscura::kit {
 
 constexpr int kNone = -1;
 
-/// Base colours are linear, as glTF wants them.
+/// Base colours are linear, as in glTF.
 struct Material {
     std::string name;
     glm::vec4 baseColor{1.0f};

@@ -1,3 +1,4 @@
+// Basic shapes: lofts, lathes, boxes, tubes.
 #pragma once
 
 #include "meshkit/mesh.h"

@@ -1,3 +1,4 @@
+// Periodic animation curves.
 #pragma once
 
 #include <vector>
@@ -5,7 +6,7 @@
 namespace obscura::kit {
 
 /// A value over time: smooth (cubic Hermite) between keys, repeating after `period`.
-/// Each lap adds `gainPerPeriod`, which lets a walker go on round its course.
+/// Each period adds `gainPerPeriod`, so that a walked distance grows from lap to lap.
 class Track {
 public:
     struct Key {

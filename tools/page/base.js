@@ -1,4 +1,4 @@
-// What the reports' pages share: elements, numbers as text, labels in charts, the theme. Set before each page's own script.
+// Shared code of the report pages: elements, numbers as text, labels in charts, theme. Precedes each page's own script.
 "use strict";
 const $ = id => document.getElementById(id);
 function element(tag, attributes = {}, ...children) {
@@ -25,8 +25,8 @@ function fill(select, options, chosen) {
   select.value = chosen;
   select.disabled = options.length < 2;
 }
-function short(text, room = 22) { return text.length > room ? text.slice(0, room - 1) + "…" : text; }
-// A place for a label near its dot that covers neither another label nor a dot; far ones get a line to theirs.
+function short(text, limit = 22) { return text.length > limit ? text.slice(0, limit - 1) + "…" : text; }
+// Position of a label near its dot, overlapping neither labels nor dots; `far` labels need a line to their dot. Null if there is no room.
 function place(dot, width, taken, dots, bounds) {
   const near = [[9, 4], [-9 - width, 4], [-width / 2, -10], [-width / 2, 20]];
   const far = [1, 2, 3, 4, 5, 6].flatMap(k => [[12, 4 - 14 * k], [-12 - width, 4 - 14 * k], [12, 4 + 14 * k], [-12 - width, 4 + 14 * k]]);
@@ -38,7 +38,7 @@ function place(dot, width, taken, dots, bounds) {
   }
   return null;
 }
-// A table's head whose buttons sort: columns of [key, title, "text" or a number of digits], state of {sort, descending}.
+// Table head with sort buttons. Columns: [key, title, "text" or number of digits]; state: {sort, descending}.
 function sortingHead(columns, state, sortBy) {
   return element("tr", {}, ...columns.map(([key, title, kind], i) => element("th", {
     scope: "col", class: `${kind === "text" ? "text" : ""}${i ? "" : " first"}`, "aria-sort": state.sort === key ? (state.descending ? "descending" : "ascending") : "none",
@@ -48,7 +48,7 @@ function sorted(rows, {sort, descending}) {
   const order = (a, b) => typeof a === "string" ? a.localeCompare(b, "en", {numeric: true}) : (a ?? Infinity) - (b ?? Infinity) || 0;
   return rows.map((row, i) => [row, i]).sort(([a, i], [b, j]) => (descending ? -1 : 1) * order(a[sort], b[sort]) || i - j).map(([row]) => row);
 }
-// Sorts by a key, or the other way round; `redraw` draws the table anew. The button pressed keeps the focus.
+// Sorts by a key, or reverses the order if it is already the key. The pressed button keeps the focus.
 function sortTable(table, state, key, redraw) {
   const had = document.activeElement?.dataset?.key === key;
   state.descending = state.sort === key && !state.descending;

@@ -1,3 +1,4 @@
+// The closed path that a toaster walks.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,3 +1,4 @@
+// obscura-toasters: writes toasters.glb.
 #include "meshkit/file_output.h"
 #include "meshkit/glb_writer.h"
 #include "toasters/toaster_scene.h"
@@ -18,9 +19,9 @@ int main(int argc, char** argv)
                  "The animation 'walk' loops. The same build always writes the same bytes."};
     app.footer("Example:\n  obscura-toasters --out content/toasters.glb");
     std::string out = "content/toasters.glb";
-    app.add_option("-o,--out", out, "File to write; its folder is made if missing")->capture_default_str();
+    app.add_option("-o,--out", out, "File to write; its folder is created if missing")->capture_default_str();
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return "obscura-toasters: " + std::string(error.what()) + "; --help tells more\n";
+        return "obscura-toasters: " + std::string(error.what()) + "; see --help\n";
     });
     CLI11_PARSE(app, argc, argv);
     try {

@@ -1,3 +1,4 @@
+// Legs and toast of a toaster: a skinned mesh and a mesh with a morph target.
 #include "meshkit/shapes.h"
 #include "meshkit/track.h"
 #include "toasters/toaster_model.h"
@@ -69,7 +70,7 @@ Geometry makeLegs()
         const float foot = isShoe ? 1.0f : 1.0f - smoothStep(0.058f, 0.075f, y);
         const glm::vec3 shares{(1.0f - shin) * (1.0f - foot), shin * (1.0f - foot), foot};
         SkinInfluence influence;
-        // Joints without a share are named 0, as the format asks.
+        // Joints without weight have index 0, as glTF requires.
         for (std::uint8_t j = 0; j < 3; ++j)
             influence.joints[j] = shares[j] > 0.0f ? static_cast<std::uint8_t>(first + j) : std::uint8_t{0};
         influence.weights = glm::vec4(shares, 0.0f);

@@ -1,3 +1,4 @@
+// Meshes and proportions of a toaster.
 #pragma once
 
 #include "meshkit/mesh.h"

@@ -28,7 +28,7 @@ float since(float time, float event)
     return time - event - std::floor((time - event) / kDuration) * kDuration;
 }
 
-/// A swing that starts at zero with a kick and dies away.
+/// A damped oscillation that starts at 0.
 float ringing(float elapsed, float decay, float frequency)
 {
     return std::exp(-decay * elapsed) * std::sin(kTau * frequency * elapsed);
@@ -68,7 +68,7 @@ float ToyMotion::forwardSpeed(float time) const
 {
     constexpr float kStep = 0.004f;
     const float rate = (m_script.travel(time + kStep) - m_script.travel(time - kStep)) / (2.0f * kStep);
-    // A toy that has turned its back walks its course the other way round.
+    // A toy that has turned round walks its course in the other direction.
     return rate * m_script.direction * std::cos(m_script.turn(time));
 }
 
@@ -237,7 +237,7 @@ void ToyMotion::placeToast(ToyPose& pose, float time) const
             pose.toastBend += 0.75f * ringing(elapsed - pop.flight, 4.0f, 3.2f);
             continue;
         }
-        // In flight the slice belongs to the world: it follows its own arc to where the slot will be.
+        // In flight the slice moves in world space, on a ballistic arc to the slot's later position.
         const glm::mat4 from = headMatrix(pop.start);
         const glm::mat4 to = headMatrix(pop.start + pop.flight);
         const glm::vec3 start(from * glm::vec4(kToastSeat, 1.0f));

@@ -1,3 +1,4 @@
+// Poses of a toaster over time.
 #pragma once
 
 #include "toasters/toaster_model.h"
@@ -17,7 +18,7 @@ struct Placement {
     glm::mat4 matrix() const;
 };
 
-/// Everything of one toy that moves, at one moment.
+/// The pose of one toy at one moment.
 struct ToyPose {
     Placement root;
     Placement body;
@@ -28,7 +29,7 @@ struct ToyPose {
     float toastBend = 0.0f;
 };
 
-/// Turns a script into poses: the gait follows the distance walked, so that standing feet stay put.
+/// Turns a script into poses: the gait follows the distance walked, so that standing feet do not slip.
 class ToyMotion {
 public:
     /// `ground` is the height of the floor the toy walks on.
@@ -37,7 +38,7 @@ public:
     ToyPose at(float time) const;
 
 private:
-    /// How the toy gets about at one moment.
+    /// Locomotion of the toy at one moment.
     struct Gait {
         float phase = 0.0f;
         /// 1 while striding, 0 while standing.

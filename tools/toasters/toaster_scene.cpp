@@ -105,7 +105,7 @@ void Builder::addEyes(int index, int head, const std::vector<int>& materials)
 {
     const std::string number = std::to_string(index);
     const int mesh = m_scene.addMesh("eye " + number, m_shapes.eye, materials);
-    // Eyes dart from one thing to the next: a stepped look, held between.
+    // Eye rotations are stepped: they jump between keys.
     const auto seed = static_cast<std::uint32_t>(index);
     std::vector<float> times{0.0f};
     while (times.back() < kDuration - 1.2f)

@@ -1,3 +1,4 @@
+// The scene toasters.glb.
 #pragma once
 
 #include "meshkit/scene.h"
@@ -7,7 +8,7 @@ namespace obscura::toasters {
 /// Length of the looping animation in seconds.
 inline constexpr float kDuration = 10.0f;
 
-/// The tray with its walking toasters, animated and ready to write.
+/// The tray with its walking toasters, animated.
 kit::Scene buildScene();
 
 } // namespace obscura::toasters

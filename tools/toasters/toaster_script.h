@@ -1,3 +1,4 @@
+// The scripted actions of each toaster.
 #pragma once
 
 #include "meshkit/track.h"

@@ -1,3 +1,4 @@
+// The tray on which the toasters walk.
 #pragma once
 
 #include "meshkit/mesh.h"

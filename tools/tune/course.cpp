@@ -47,7 +47,7 @@ Score score(Course& course, const evaluate::Candidate& candidate, const evaluate
     Score result;
     double logError = 0.0, logTime = 0.0, flicker = 0.0, handFlicker = 0.0;
     for (size_t leg = 0; leg < course.size(); ++leg) {
-        const Leg is = course.fly(leg, candidate), then = course.fly(leg, hand);  // the hand-set one's time now: the machine drifts
+        const Leg is = course.fly(leg, candidate), then = course.fly(leg, hand);  // the hand-set preset is timed again, because the machine's speed drifts
         const Leg& was = handLegs[leg];
         result.errors.push_back(is.eA / std::max(was.eA, 1e-6));
         result.times.push_back(is.milliseconds / std::max(then.milliseconds, 1e-6));
@@ -58,7 +58,7 @@ Score score(Course& course, const evaluate::Candidate& candidate, const evaluate
     const double legs = double(course.size());
     result.error = std::exp(logError / legs);
     result.time = std::exp(logTime / legs);
-    constexpr double kFloor = 1e-4;  // of F_e, below which nobody sees it
+    constexpr double kFloor = 1e-4;  // F_e below this is invisible
     result.flicker = (flicker / legs + kFloor) / (handFlicker / legs + kFloor);
     return result;
 }

@@ -1,4 +1,4 @@
-// What settings are judged on: short flights through scenes, each with a falloff, all standing ready at once.
+// The measurements of a search: short flights through scenes, one per place and falloff (a leg), all loaded at once.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace obscura::tune {
 
-// "atrium@4": where on its scene's flythrough a flight begins.
+// "atrium@4": a scene, and the time on its flythrough at which a flight begins.
 struct Place {
     std::string scene;
     double at = 0.0;                 // s
@@ -15,7 +15,7 @@ struct Place {
 };
 Place placeOf(const std::string& text, const char* option);  // throws app::Complaint
 
-struct Leg {                         // of one flight
+struct Leg {                         // measurements of one flight
     double eA = 0.0, flicker = 0.0, milliseconds = 0.0;  // means over its frames; sum of the passes' medians
 };
 
@@ -25,21 +25,21 @@ public:
     size_t size() const { return m_flights.size(); }
     const std::string& name(size_t leg) const { return m_names[leg]; }  // "atrium@4 quadratic:2"
     Leg fly(size_t leg, const evaluate::Candidate& candidate);
-    std::string keyOf(const evaluate::Candidate& candidate) const;      // of all that determines what fly() measures, but time
+    std::string keyOf(const evaluate::Candidate& candidate) const;      // hash of everything that determines fly() except time
 
 private:
     std::vector<std::unique_ptr<flythrough::Flight>> m_flights;
     std::vector<std::string> m_names;
 };
 
-// A candidate over the hand-set one, both flown leg by leg in turns. Below 1 is better.
+// Ratios of a candidate to the hand-set preset, both measured in turns leg by leg. Below 1 is better.
 struct Score {
     double error = 1.0, flicker = 1.0, time = 1.0;
     std::vector<double> errors, times;  // of each leg
 };
 Score score(Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand, const std::vector<Leg>& handLegs);
 
-// What the search makes smallest: error, dearer by how far time and flicker are beyond what they may be (over the hand-set one's).
+// The objective that a search minimises: error, with penalties for time and flicker above the limits (ratios to the hand-set preset).
 struct Limits {
     double time = 1.0, flicker = 1.05;
 };

@@ -1,4 +1,4 @@
-// Reads the command line, searches, writes; turns every failure into one line and an exit code.
+// Entry point of obscura-tune: parses the command line, runs the job, writes the results; a failure is one line and an exit code.
 #include <cstdio>
 
 #include <fmt/format.h>

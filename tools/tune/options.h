@@ -1,4 +1,4 @@
-// The command line as a struct. Everything that can be judged without a device or a scene is judged here.
+// The command line as a struct. Parsing checks everything that needs neither a device nor a scene.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 namespace obscura::tune {
 
 struct Options {
-    std::vector<evaluate::Candidate> hands;     // the presets that are to be beaten, and where searches start
-    std::vector<std::string> parameters;        // empty: Space's choice
+    std::vector<evaluate::Candidate> hands;     // hand-set presets: starts of the searches, to which results are compared
+    std::vector<std::string> parameters;        // empty: the default of Space
     std::vector<Place> training, heldOut;
     std::vector<evaluate::FalloffChoice> falloffs;
     flythrough::Settings flight;
@@ -22,7 +22,7 @@ struct Options {
     bool verbose = false;
 };
 
-// Throws app::Complaint. Nothing when the line asked for help, which has been printed.
+// Throws app::Complaint. Empty after printing help.
 std::optional<Options> parseOptions(int argc, const char* const* argv);
 
 }  // namespace obscura::tune

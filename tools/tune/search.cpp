@@ -15,7 +15,7 @@ struct State {
     std::vector<double> at;
 
     double ask(const std::vector<double>& point) {
-        constexpr uint32_t kCallsEach = 40;  // whole numbers make many points one: a search that sees nothing new ends
+        constexpr uint32_t kCallsEach = 40;  // rounding maps many points to one; a search without new points ends after so many calls
         if (spent >= limit || ++calls > kCallsEach * limit) throw nlopt::forced_stop();
         const Answer answer = evaluate(point);
         spent += answer.fresh;
@@ -39,8 +39,8 @@ void run(nlopt::algorithm algorithm, State& state, uint32_t limit) {
     double value = 0.0;
     try {
         opt.optimize(point, value);
-    } catch (const nlopt::forced_stop&) {        // the evaluations are spent
-    } catch (const nlopt::roundoff_limited&) {}  // and so is the precision: what was found stands
+    } catch (const nlopt::forced_stop&) {        // evaluations used up
+    } catch (const nlopt::roundoff_limited&) {}  // precision exhausted: keep the best point
 }
 
 }  // namespace

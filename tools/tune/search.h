@@ -1,4 +1,4 @@
-// Minimises what is dear to evaluate, over [0, 1]^n: NLopt's randomised DIRECT-L for the lie of the land, then Subplex from the best.
+// Minimises an expensive function over [0, 1]^n: NLopt's randomised DIRECT-L (global), then Subplex from the best point (local).
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace obscura::tune {
 
-// The same calls in the same order for the same seed and the same answers. `evaluate` says whether the point was new: only those count
-// towards `evaluations`. Begins at `start`. Returns the best point.
+// Deterministic for equal seeds and equal values. `evaluate` returns whether the point was new; only new points count towards
+// `evaluations`. Begins at `start`. Returns the best point.
 struct Answer {
     double value = 0.0;
     bool fresh = true;

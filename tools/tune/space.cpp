@@ -14,7 +14,7 @@ namespace {
 
 bool shared(std::string_view id) { return id.starts_with("temporal") || id.starts_with("offscreen"); }
 
-// The names that speak of this method, bare.
+// The names that apply to this method, without "METHOD.".
 std::vector<std::string> namesOf(const ao::MethodInfo& info, const std::vector<std::string>& names) {
     std::vector<std::string> mine;
     for (const std::string& name : names) {
@@ -49,7 +49,7 @@ Space::Space(const evaluate::Candidate& start, const std::vector<std::string>& n
 
 double Space::Axis::value(double u) const {
     const double v = ratios ? low * std::pow(high / low, u) : low + (high - low) * u;
-    // Three digits: what a preset's table can hold.
+    // Three significant digits, as in the presets' tables.
     const double digits = v == 0.0 ? 1.0 : std::pow(10.0, 2.0 - std::floor(std::log10(std::fabs(v))));
     return std::clamp(parameter->integer ? std::round(v) : std::round(v * digits) / digits, low, high);
 }

@@ -1,4 +1,4 @@
-// What of a method is searched: parameters as a cube [0, 1]^n around a start.
+// The search space of a method: parameters mapped to a cube [0, 1]^n around a start.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@ namespace obscura::tune {
 
 class Space {
 public:
-    // The parameters named ("steps", or "METHOD.steps", which other methods pass over); none named: all numbers of the method's own, not
-    // those it shares with others (history, off-screen occluders). Values above 0 go from a quarter of the start's to four times it,
-    // in ratios; others through all of their range. Throws app::Complaint.
+    // Searches the named parameters ("steps", or "METHOD.steps", which other methods ignore). None named: all numeric parameters of the
+    // method's own, without shared ones (history, off-screen occluders). A start above 0 spans 1/4 to 4 times its value on a logarithmic
+    // scale; others span their whole range. Throws app::Complaint.
     Space(const evaluate::Candidate& start, const std::vector<std::string>& names);
 
     size_t size() const { return m_axes.size(); }
     std::vector<double> start() const;
-    // The start with the values at a point, whole where they must be; Candidate::settings tell those that differ from the start.
+    // The start with the values at a point, rounded for integer parameters; Candidate::settings lists those that differ from the start.
     evaluate::Candidate at(std::span<const double> point) const;
 
 private:

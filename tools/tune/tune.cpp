@@ -25,7 +25,7 @@ using evaluate::digits;
 
 namespace {
 
-// What makes a winner real: less than kGain of the error, nowhere more than kLoss; kNoise for what clocks cannot tell.
+// A winner is real if its error is below kGain on the mean and nowhere above kLoss; kNoise: tolerance of times.
 constexpr double kGain = 0.98, kLoss = 1.02, kNoise = 1.03;
 
 std::string settingsOf(const evaluate::Candidate& candidate, const evaluate::Candidate& hand) {
@@ -39,7 +39,7 @@ Score scoreOf(const Json& json) {
     return {json.at("error"), json.at("flicker"), json.at("time"), json.at("errors").get<std::vector<double>>(), json.at("times").get<std::vector<double>>()};
 }
 
-// Every score that was ever measured in this search, by what it is of: a search that goes on finds its old answers here.
+// All scores of a search by name, saved to a file, from which an interrupted search resumes.
 class Log {
 public:
     Log(std::filesystem::path file, std::string key, bool again) : m_file(std::move(file)), m_key(std::move(key)) {
@@ -49,7 +49,7 @@ public:
             const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
             if (json.at("key") != m_key) return;
             for (const Json& line : json.at("scores")) m_scores.push_back({line.at("of"), scoreOf(line)});
-        } catch (const Json::exception&) { m_scores.clear(); }  // not one of ours
+        } catch (const Json::exception&) { m_scores.clear(); }  // not a log of this program
     }
     const Score* find(const std::string& of) const {
         for (const auto& [name, score] : m_scores)
@@ -81,7 +81,7 @@ std::vector<Leg> legsOf(Course& course, const evaluate::Candidate& hand) {
     return legs;
 }
 
-// Errors and flicker are the same each time; the times are medians over rounds.
+// Errors and flicker are deterministic; times are medians over rounds.
 Score again(Log& log, const std::string& what, Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand, const std::vector<Leg>& legs,
             uint32_t rounds, std::vector<double>* times = nullptr) {
     Score result;
@@ -130,7 +130,7 @@ Tuned tune(const Options& options, const evaluate::Candidate& hand, Course& trai
         });
     }
 
-    // One lucky clock reading is no win: the best few are measured again, the hand-set one among them.
+    // Times are noisy, so the best settings and the hand-set preset are measured again.
     std::vector<const Trial*> order;
     for (const Trial& trial : result.trials) order.push_back(&trial);
     std::stable_sort(order.begin(), order.end(), [](const Trial* a, const Trial* b) { return a->objective < b->objective; });
@@ -148,7 +148,7 @@ Tuned tune(const Options& options, const evaluate::Candidate& hand, Course& trai
 
     for (size_t i = 0; i < heldOut.size(); ++i) result.legs.push_back(heldOut.name(i));
     result.heldOut.errors.assign(heldOut.size(), 1.0);
-    if (result.training.settings.empty()) return result;  // the hand-set one stands
+    if (result.training.settings.empty()) return result;  // the hand-set preset is the best
     const std::vector<Leg> away = legsOf(heldOut, hand);
     std::vector<double> times;
     result.heldOut = again(log, "held out", heldOut, result.best, hand, away, options.rounds, &times);
@@ -176,14 +176,14 @@ std::string presetText(const evaluate::Candidate& candidate) {
 
 std::string markdown(const Options& options, const std::vector<Tuned>& results) {
     std::string text = fmt::format(
-        "# Searched settings\n\n    {}\n\nRatios to the hand-set preset, measured in turns, geometric means; below 1 is better. A winner is *real* with at least 2 % less error where it\n"
-        "never trained, nowhere 2 % more, at most {:g} times the time and {:g} times the flicker.\n\n"
+        "# Searched settings\n\n    {}\n\nRatios to the hand-set preset, measured in turns, geometric means; below 1 is better. A winner is *real* with at least 2 % less error on\n"
+        "held-out places, nowhere 2 % more, at most {:g} times the time and {:g} times the flicker.\n\n"
         "| preset | trials | error, training | error, held out | time, held out | 95 % of it | flicker, held out | real | settings over the preset |\n"
         "|---|--:|--:|--:|--:|--:|--:|---|---|\n",
         options.command, options.limits.time, options.limits.flicker);
     for (const Tuned& r : results)
         text += r.training.settings.empty()
-                    ? fmt::format("| {} | {} | | | | | | no | none found that is better |\n", r.hand.label(), r.trials.size())
+                    ? fmt::format("| {} | {} | | | | | | no | nothing better found |\n", r.hand.label(), r.trials.size())
                     : fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} to {:.3f} | {:.3f} | {} | {} |\n", r.hand.label(), r.trials.size(), r.training.score.error,
                                   r.heldOut.error, r.heldOut.time, r.timeLow, r.timeHigh, r.heldOut.flicker, r.real(options.limits) ? "yes" : "no", r.training.settings);
     text += "\nError of each held-out place:\n\n| preset |";

@@ -1,18 +1,18 @@
-// Hybrid ambient occlusion by voxelization [Reinbothe, Boubekeur, Alexa 2009, Hybrid Ambient Occlusion]. Rays leave a pixel's surface
-// point for a grid of occupied cells, which knows what the screen does not show:
-//     A = sum over rays of c rho(t) / sum over rays of c,   c = cos(ray, normal), t the distance to the first set cell met
-// on a map of a quarter of the pixels, then joint bilateral upsampling in two passes. What differs from the paper: the sum of
-// cosines in place of the count (the paper's 1/n halves full enclosure), the normals' weight w(1 - n.n') in place of w(1 + n.n'),
-// which is zero between equal normals, steps that are shifted for each ray, positions that share within a quarter of the reach,
-// and distances counted from the pixel's point although rays start a little above it (as to a surface that faces the ray).
+// Hybrid ambient occlusion by voxelization [Reinbothe, Boubekeur, Alexa 2009, Hybrid Ambient Occlusion]. Rays from the pixel's surface
+// point run through a grid of occupied cells, which includes occluders outside the image:
+//     A = sum over rays of c rho(t) / sum over rays of c,   c = cos(ray, normal), t the distance to the first set cell
+// on a map of a quarter of the pixels, followed by joint bilateral upsampling in two passes. Differences from the paper: division by the
+// sum of cosines instead of the count (the paper's 1/n halves full enclosure); normal weight w(1 - n.n') instead of w(1 + n.n'), which is 0
+// for equal normals; steps shifted per ray; a filter range of a quarter of the reach; distances measured from the surface point although
+// rays start above it (as to a surface that faces the ray).
 //
-// Rays spread evenly in the cosine over the cone, by the golden angle around the normal, from noise of the place in the world.
-// Reads the volume, linear depth and normals; writes visibility of the visible part. The map's pixels may share out rays (the shared gather).
+// Rays are uniform in the cosine over the cone, at multiples of the golden angle around the normal, with noise fixed in the world.
+// Reads the volume, linear depth and normals; writes visibility of the visible part. Rays can be interleaved over the map's pixels.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "ao/resolve.h"
+#include "ao/interleave.h"
 #include "ao/upsample.h"
 
 namespace obscura::ao {
@@ -25,30 +25,42 @@ struct Trace {
     uint32_t side;  // of the interleaving tile
 };
 
-constexpr float kGrain = 1.0f;  // cells a side of the noise's
+constexpr float kGrain = 1.0f;  // side of a noise cell, in cells of the volume
 
 const Parameter kParameters[] = {
-    {"rays", "", 8, 128, 21, true, {}, "Rays a pixel of the map; cost grows with rays x steps."},
-    {"steps", "", 4, 64, 10, true, {}, "Places looked at along a ray, out to the falloff's reach; fewer miss thin things."},
-    {"jitter", "", 0, 1, 1, false, {}, "1: steps are shifted for each ray, noise for the filter to take out; 0: the same for all, as in the paper, which leaves steps in the picture."},
-    {"spread", "", 0.1f, 1, 1, false, {}, "Half angle of the rays' cone over 90 degrees; less is sharper and wrong."},
-    {"offset", "cells", 0, 8, 1.75f, false, {}, "How far above the surface rays start. A cell that a plane touches ends within sqrt(3) cells of it: below that a surface darkens itself, above it loses contact shadows."},
-    {"map", "px", 1, 4, 2, true, {}, "Pixels a map's pixel, each way: 2 traces a quarter of them."},
+    {"rays", "", 8, 128, 21, true, {}, "Rays per pixel of the map. Cost grows with rays x steps. Too few: blotches after upsampling."},
+    {"steps", "", 4, 64, 10, true, {},
+     "Voxel lookups along each ray, out to the falloff's reach. Cost grows with rays x steps. Too few: thin objects are missed."},
+    {"jitter", "", 0, 1, 1, false, {},
+     "1: steps are shifted for each ray; the filter removes the noise. 0: equal steps for all rays, as in the paper, which leave "
+     "contours."},
+    {"spread", "", 0.1f, 1, 1, false, {},
+     "Half angle of the cone of rays, as a fraction of 90 degrees. Less is sharper, but occluders near the horizon are missed."},
+    {"offset", "cells", 0, 8, 1.75f, false, {},
+     "Distance above the surface at which rays start. Cells that touch a plane end within sqrt(3) = 1.73 cells of it. Too low: surfaces "
+     "shadow themselves; too high: contact shadows are lost."},
+    {"map", "px", 1, 4, 2, true, {},
+     "Image pixels per pixel of the map, each way. 2 costs a quarter of 1. Too high: small objects lose their occlusion."},
     kInterleave,
-    {"filter", "px", 0, 32, 20, true, {}, "Width of the upsampling filter; 0: the smallest that fills the gaps."},
-    {"filter_range", "", 0.01f, 1, 0.31f, false, {}, "Points further apart than this part of the falloff's reach share nothing."},
+    {"filter", "px", 0, 32, 20, true, {},
+     "Width of the upsampling filter. Cost grows with it. 0: the smallest that fills the gaps. Too low: noise; too high: contact shadows "
+     "blur."},
+    {"filter_range", "", 0.01f, 1, 0.31f, false, {},
+     "Points farther apart than this fraction of the falloff's reach are not averaged. Too low: noise; too high: occlusion bleeds "
+     "between surfaces."},
 };
 const Setting kPaper[] = {{"rays", 32}, {"steps", 8}, {"jitter", 0}, {"filter", 16}, {"filter_range", 1}};
 const Setting kQuality[] = {{"rays", 64}, {"steps", 24}, {"filter", 8}, {"map", 1}};
 const Preset kPresets[] = {
-    {"default", "21 rays x 10 shifted steps on a quarter-area map, 20-pixel filter.", {}},
-    {"paper", "32 rays x 8 equal steps on a quarter-area map, 16-pixel filter; give it a window of 256 cells.", {kPaper, std::size(kPaper)}},
-    {"quality", "64 rays x 24 steps at every pixel, 8-pixel filter.", {kQuality, std::size(kQuality)}},
+    {"default", "21 rays x 10 jittered steps on a quarter-area map, 20 px filter.", {}},
+    {"paper", "32 rays x 8 equal steps on a quarter-area map, 16 px filter. Use a volume of 256 cells a side.",
+     {kPaper, std::size(kPaper)}},
+    {"quality", "64 rays x 24 steps at every pixel, 8 px filter.", {kQuality, std::size(kQuality)}},
 };
 const MethodInfo kInfo{"hybrid",
                        "Hybrid ambient occlusion",
                        "Reinbothe, Boubekeur, Alexa: Hybrid Ambient Occlusion, Eurographics 2009 Areas Papers",
-                       "Rays through a voxel grid of the world: occluders count that the screen does not show.",
+                       "Rays through a voxel grid of the world, so that occluders outside the image count.",
                        kDepth | kNormals | kVolume,
                        {kParameters, std::size(kParameters)},
                        {kPresets, std::size(kPresets)}};
@@ -83,14 +95,14 @@ public:
 
 private:
     graph::ImageId open(graph::Graph& graph, const Inputs& inputs) {
-        if (!std::exchange(m_said, true)) graph.device().log(gpu::Severity::warning, "hybrid: the frame brings no volume, so nothing is blocked");
+        if (!std::exchange(m_warned, true)) graph.device().log(gpu::Severity::warning, "hybrid: the frame has no volume (Frame::volume); visibility is 1 everywhere");
         return allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "hybrid.open");
     }
 
-    gpu::Program m_trace[2];  // by structure
+    gpu::Program m_trace[2];  // by VolumeStructure
     Upsample m_upsample;
     Gather m_gather;
-    bool m_said = false;
+    bool m_warned = false;
 };
 
 }  // namespace

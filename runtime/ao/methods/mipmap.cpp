@@ -1,34 +1,38 @@
-// The reference method of the far-field paper [Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013, sec. 5], so that its
-// comparison runs here: along K directions the depth pyramid is sampled at distances that grow by a factor, each time from the level
-// whose texels are as wide as the sector, trilinearly, and once more at the picture's very edge. Estimator and table are far_field's,
-// with the paper's slabs; what differs is only where the points come from.
+// Mipmapped ambient obscurance, the baseline of the far-field paper [Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013, sec. 5].
+// Along K directions the depth pyramid is sampled trilinearly at distances that grow by a factor, from the level whose texels are as wide
+// as the sector, and once more at the edge of the image. Estimator (with the paper's slabs) and table are far_field's; only the source of
+// the points differs.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: pyramid (one a level), obscurance.
 #include <algorithm>
 #include <iterator>
 
-#include "far_field_parts.h"
+#include "ao/methods/falloff_table.h"
 
 namespace obscura::ao {
 namespace {
 
 const Parameter kParameters[] = {
-    {"directions", "", 4, 64, 16, true, {}, "Directions on the screen, K; the cost grows with them."},
-    {"factor", "", 1.1f, 3, 1.5f, false, {}, "How much each step is longer than the one before it."},
-    {"thickness", "m", 0, 100, 0, false, {}, "How thick surfaces are; 0 is endless. Thin ones take the nearest depth of each texel instead of the mean, from one level."},
-    {"jitter", "", 0, 1, 0, false, {}, "How much of its sector a pixel's directions are turned by, at random."},
+    {"directions", "", 4, 64, 16, true, {}, "Directions on the screen, K. Cost grows with them. Too few: bands."},
+    {"factor", "", 1.1f, 3, 1.5f, false, {},
+     "Length of each step relative to the one before. Larger costs less; too large: small distant occluders are missed."},
+    {"thickness", "m", 0, 100, 0, false, {},
+     "Thickness of surfaces; 0: endless. Above 0 a texel of the pyramid is the nearest depth instead of the mean, from one level. Too "
+     "low: light leaks through solid objects."},
+    {"jitter", "", 0, 1, 0, false, {},
+     "Random turn of the directions of each pixel, as a fraction of half a sector: noise instead of bands."},
 };
 const Setting kDense[] = {{"directions", 64}, {"factor", 1.2f}};
 const Setting kThin[] = {{"thickness", 0.1f}, {"jitter", 1}};
 const Preset kPresets[] = {
-    {"default", "The paper's: 16 directions, steps growing by half.", {}},
-    {"dense", "64 directions, steps growing by a fifth: how slowly it converges.", {kDense, std::size(kDense)}},
-    {"thin", "Surfaces 10 cm thick: max-mipmaps, jittered.", {kThin, std::size(kThin)}},
+    {"default", "The paper's setting: 16 directions, each step 1.5 times the one before.", {}},
+    {"dense", "64 directions, each step 1.2 times the one before: shows how slowly it converges.", {kDense, std::size(kDense)}},
+    {"thin", "Surfaces 10 cm thick: nearest-depth mipmaps, jittered.", {kThin, std::size(kThin)}},
 };
 const MethodInfo kInfo{"mipmap",
                        "Mipmapped ambient obscurance",
                        "Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013, section 5",
-                       "Far samples from a depth pyramid: what far_field is compared with.",
+                       "Distant samples from a depth pyramid. The method that the far-field paper compares with.",
                        kDepth | kNormals,
                        {kParameters, std::size(kParameters)},
                        {kPresets, std::size(kPresets)},
@@ -72,7 +76,6 @@ public:
         return {Blocking::kEndless, values["thickness"] > 0.0f ? values["thickness"] : Blocking::kEndless};
     }
 
-    void reset() override { m_table.reset(); }
 
 private:
     FalloffTable m_table;

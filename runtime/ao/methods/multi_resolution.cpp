@@ -1,28 +1,28 @@
 // Multi-resolution ambient occlusion [Hoang and Low: Efficient Screen-Space Approach to High-Quality Multi-Scale Ambient
-// Occlusion, The Visual Computer 2012]. Depth and normals are halved level by level; each level looks at a few texels
-// around, so that coarse ones see far and fine ones see creases; from the coarsest to the finest, levels join:
+// Occlusion, The Visual Computer 2012]. Depth and normals are halved level by level. Each level samples a few texels around each texel:
+// coarse levels find distant occluders, fine ones creases. Levels are combined from the coarsest to the finest:
 //     c1 = max(own mean, far c1)   c2 = own sum + far c2   c3 = own number + far c3                    [eq. 10]
 //     A = 1 - (1 - c1) (1 - c2 / c3)                                                                   [eq. 11]
 // where "far" is the next coarser level, filtered and upsampled by a joint bilateral filter.
 //
-// Where the paper is silent, or other than this:
-// - Radii follow its text, the finest level has the whole projected reach [eq. 5 halves it]; `first_radius` 0.5 is eq. 5.
-// - Bilateral weights are normalised [table 4 leaves it out], lengths count in the falloff's reach: tolerance and threshold
-//   are 1 m at the paper's reach of 2 m, so the method works at any scale.
-// - Levels keep depth, not positions: what stands for a block is carried along its tangent plane to the block's middle.
+// Differences, some where the paper is incomplete:
+// - Radii follow its text: the finest level has the whole projected reach [eq. 5 halves it]; `first_radius` 0.5 is eq. 5.
+// - Bilateral weights are normalised [not in table 4]. Lengths are in reaches of the falloff, so the method works at any scale;
+//   tolerance and threshold are 1 m at the paper's reach of 2 m.
+// - Levels keep depth, not positions: the chosen texel's depth is moved along its tangent plane to the middle of its block.
 // - The falloff is the shared type; the paper's own is quadratic.
-// Where it goes further (the preset `paper` has none of it): samples count with their squared cosine, the share of the
-// hemisphere below them, so that low neighbours do not drown what stands high; obscurance has a direction, so that a coarse
-// level's shows the normals of the fine one; surfaces are told apart by the tangent plane.
+// Extensions (not in the preset `paper`): samples have the weight of their squared cosine, the fraction of the hemisphere below
+// them, so that low neighbours do not hide high occluders; obscurance has a direction, so that coarse levels follow the normals of
+// fine ones; the bilateral filter compares tangent planes.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes, as in the paper's
-// table 7: downsample (n-1 times), sample (n), filter and upsample (n-1 each). Samples of all levels wait for nothing but
-// their level, so a GPU may run them side by side. The finest level's pixels may share out theirs (`interleave`, the shared gather).
+// table 7: downsample (n-1 times), sample (n), filter and upsample (n-1 each). The sample passes depend only on their own level, so a
+// GPU can overlap them. `interleave` interleaves the samples of the finest level.
 #include <algorithm>
 #include <iterator>
 #include <string>
 
-#include "ao/resolve.h"
+#include "ao/interleave.h"
 
 namespace obscura::ao {
 namespace {
@@ -36,11 +36,11 @@ struct SampleConstants {
     shared::FalloffBlock falloff;
     shared::ivec2 size, origin, area;
     float texel;      // px
-    float reach;      // over the falloff's
+    float reach;      // relative to the falloff's
     float maxRadius;  // texels
     float gain;
     uint32_t disk;
-    uint32_t side;    // of the interleaving tile
+    uint32_t side;    // of the interleaving tile, px
 };
 struct FilterConstants {
     shared::ivec2 origin, area;
@@ -54,22 +54,38 @@ struct UpsampleConstants {
     float samples;
 };
 
-constexpr float kDiskPoints = 16, kSquarePoints = 36;  // most that a pixel takes, sample.glsl
+constexpr float kDiskPoints = 16, kSquarePoints = 36;  // maximum per pixel, see sample.glsl
 const char* const kPatterns[] = {"squares", "disk at the finest", "disks"};
 enum : uint32_t { kMean, kDirected };
 const char* const kEstimates[] = {"mean cosine", "directed"};
 const char* const kEdges[] = {"depth", "plane"};
 const Parameter kParameters[] = {
-    {"levels", "", 2, 6, 5, true, {}, "Resolutions, n; each one more doubles how far samples reach and costs a quarter of the one before."},
-    {"max_radius", "texels", 1, 16, 7, false, {}, "Longest reach of samples in each level, r_max; beyond the paper's 5 the same samples lie further apart."},
-    {"first_radius", "", 0.25f, 2, 1, false, {}, "Reach at the finest level over the falloff's own; it halves from level to level. 0.5 is the paper's equation 5."},
-    {"pattern", "", 0, 2, 1, true, {kPatterns, 3}, "Where levels sample: up to 36 texels of a square, or 16 points on a disk, at the finest level as in the paper or at all."},
+    {"levels", "", 2, 6, 5, true, {},
+     "Number of resolutions, n. Each more doubles how far samples reach and costs a quarter of the one before. Too few: wide occlusion "
+     "is lost."},
+    {"max_radius", "texels", 1, 16, 7, false, {},
+     "Longest sample distance within a level, r_max. Above the paper's 5 the same samples lie farther apart and small occluders are "
+     "missed; too low: wide occlusion is lost."},
+    {"first_radius", "", 0.25f, 2, 1, false, {},
+     "Sample radius of the finest level, as a fraction of the falloff's projected reach; in texels it halves from level to level. 0.5 is "
+     "the paper's equation 5. Too low: distant occluders are missed."},
+    {"pattern", "", 0, 2, 1, true, {kPatterns, 3},
+     "Sample pattern: up to 36 texels of a square, or 16 points on a disk, on the finest level as in the paper or on all levels. Squares "
+     "cost more; disks miss small occluders."},
     kInterleave,
-    {"obscurance", "", 0, 1, 1, true, {kEstimates, 2}, "What samples add up to: a mean of cosines as in the paper, or squared cosines with a direction, which fine levels evaluate along their own normals."},
-    {"gain", "", 0, 4, 1.7f, false, {}, "Factor on each level's obscurance."},
-    {"threshold", "R", 0, 1000, 0.05f, false, {}, "Four texels become their median, or the second nearest if they lie further apart than this many reaches. 0: always the latter."},
-    {"edges", "", 0, 1, 1, true, {kEdges, 2}, "How the bilateral filter tells surfaces apart: by depth as in the paper, or by distance from the tangent plane, which leaves slanted floors whole."},
-    {"tolerance", "R", 0.001f, 1000, 0.1f, false, {}, "The distance it takes for another surface, in reaches."},
+    {"obscurance", "", 0, 1, 1, true, {kEstimates, 2},
+     "What samples add up to: a mean of cosines, as in the paper, or squared cosines with a direction, which finer levels evaluate along "
+     "their own normals. Directed costs one more image a level."},
+    {"gain", "", 0, 4, 1.7f, false, {}, "Factor on the obscurance of each level. Too low: too bright; too high: creases turn black."},
+    {"threshold", "R", 0, 1000, 0.05f, false, {},
+     "A coarser texel is the median of four if they lie within this many reaches of each other, else the second nearest. 0: always the "
+     "second nearest. Too high: foreground and background mix at edges."},
+    {"edges", "", 0, 1, 1, true, {kEdges, 2},
+     "How the bilateral filter separates surfaces: by depth, as in the paper, or by distance from the tangent plane. By depth: slanted "
+     "floors break up."},
+    {"tolerance", "R", 0.001f, 1000, 0.1f, false, {},
+     "Distance, in reaches, at which the bilateral filter takes two texels for different surfaces. Too low: blocks of coarse texels "
+     "show; too high: occlusion bleeds across edges."},
 };
 const Setting kPaper[] = {{"levels", 4}, {"max_radius", 5}, {"obscurance", kMean}, {"gain", 1}, {"threshold", 0.5f}, {"edges", 0}, {"tolerance", 0.5f},
                           {"temporal", 0.5f}, {"temporal_clip", 0}};
@@ -77,20 +93,21 @@ const Setting kFast[] = {{"levels", 3}, {"pattern", 2}};
 const Setting kQuality[] = {{"pattern", 0}, {"gain", 1.8f}};
 const Preset kPresets[] = {
     {"default", "5 levels, directed obscurance; tuned on Sponza, the atrium, the dragon and the toasters.", {}},
-    {"paper", "As published: 4 levels, r_max 5, 16 points at the finest, half of the past where there are motion vectors.", {kPaper, std::size(kPaper)}},
-    {"fast", "3 levels, 16 samples each: creases and contacts.", {kFast, std::size(kFast)}},
-    {"quality", "5 levels, 36 samples at the finest.", {kQuality, std::size(kQuality)}},
+    {"paper", "As published: 4 levels, r_max 5, 16 points on the finest, history weight 0.5 if there are motion vectors.",
+     {kPaper, std::size(kPaper)}},
+    {"fast", "3 levels, 16 samples each: creases and contact shadows only.", {kFast, std::size(kFast)}},
+    {"quality", "5 levels, up to 36 samples on each.", {kQuality, std::size(kQuality)}},
 };
 const MethodInfo kInfo{"multi_resolution",
                        "Multi-resolution ambient occlusion",
                        "Hoang, Low: Efficient Screen-Space Approach to High-Quality Multi-Scale Ambient Occlusion, The Visual Computer 2012",
-                       "Few samples at each of several resolutions, joined from coarse to fine; free of noise.",
+                       "A few samples at each of several resolutions, combined from coarse to fine. No noise.",
                        kDepth | kNormals,
                        {kParameters, std::size(kParameters)},
                        {kPresets, std::size(kPresets)}};
 
 struct Obscurance {  // see levels.glsl
-    graph::ImageId numbers, directions;  // R32UI; directions are one texel where there are none
+    graph::ImageId numbers, directions;  // R32UI; without directions their image is one texel
 };
 
 struct Level {
@@ -100,7 +117,7 @@ struct Level {
     float texel;                       // px
 };
 
-// The next coarser level, whose area is what upsampling the finer one's reads and one texel more for the filter.
+// The next coarser level. Its area is what upsampling the finer level's area reads, plus one texel for the filter.
 Level coarser(const Level& fine) {
     Level result{{}, {}, {}, {(fine.size.x + 1) / 2, (fine.size.y + 1) / 2}, {}, {}, fine.texel * 2.0f};
     const auto cover = [](int32_t size, int32_t origin, int32_t area, int32_t& coarseOrigin, int32_t& coarseArea) {
@@ -146,11 +163,11 @@ public:
             const SampleConstants constants{inputs.falloff, level.size, level.origin, level.area, level.texel, values["first_radius"], values["max_radius"],
                                             values["gain"], values.count("pattern") > (i ? 1u : 0u), shared ? side : 1};
             if (shared) {
-                const graph::ImageId parts = graph.image("multi_resolution.parts", {VK_FORMAT_R16G16_SFLOAT, view.visible.x, view.visible.y});
-                graph.pass(named("sample", level), programs.sampleShared).read(inputs.viewBlock).read(level.depth).read(level.normals).write(parts)
+                const graph::ImageId shares = graph.image("multi_resolution.parts", {VK_FORMAT_R16G16_SFLOAT, view.visible.x, view.visible.y});
+                graph.pass(named("sample", level), programs.sampleShared).read(inputs.viewBlock).read(level.depth).read(level.normals).write(shares)
                     .constants(constants).dispatch(view.visible.x, view.visible.y);
                 const graph::ImageId open = allOpen(graph, {view.visible.x, view.visible.y}, "multi_resolution.open");
-                level.obscurance.numbers = m_gather.add(graph, inputs, parts, side, open);
+                level.obscurance.numbers = m_gather.add(graph, inputs, shares, side, open);
                 continue;
             }
             level.obscurance = obscurance(graph, "near", level, directed && i > 0);
@@ -188,12 +205,12 @@ private:
         gpu::Program sample, filter, combine, finish, sampleShared, finishGathered;
     };
 
-    static std::string named(const char* what, const Level& level) { return std::string("multi_resolution.") + what + " 1/" + std::to_string(int(level.texel)); }
+    static std::string named(const char* name, const Level& level) { return std::string("multi_resolution.") + name + " 1/" + std::to_string(int(level.texel)); }
 
-    static Obscurance obscurance(graph::Graph& graph, const char* what, const Level& level, bool directed) {
+    static Obscurance obscurance(graph::Graph& graph, const char* name, const Level& level, bool directed) {
         const uint32_t width = uint32_t(level.area.x), height = uint32_t(level.area.y);
-        return {graph.image(named(what, level), {VK_FORMAT_R32_UINT, width, height}),
-                graph.image(named(what, level) + " directions", {VK_FORMAT_R32_UINT, directed ? width : 1, directed ? height : 1})};
+        return {graph.image(named(name, level), {VK_FORMAT_R32_UINT, width, height}),
+                graph.image(named(name, level) + " directions", {VK_FORMAT_R32_UINT, directed ? width : 1, directed ? height : 1})};
     }
 
     Level downsample(graph::Graph& graph, const Inputs& inputs, const Level& fine, float threshold) {

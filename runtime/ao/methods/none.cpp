@@ -1,11 +1,11 @@
-// No obscurance: visibility 1 everywhere. What every other method's cost and picture is compared with.
-#include "ao/resolve.h"
+// No obscurance: visibility 1 everywhere, against which cost and image of every method are compared.
+#include "ao/method.h"
 
 namespace obscura::ao {
 namespace {
 
 const Preset kPresets[] = {{"default", "Nothing is computed.", {}}};
-const MethodInfo kInfo{"none", "No obscurance", "", "Ambient light reaches every point: the picture without any of this.", 0, {}, {kPresets, 1}};
+const MethodInfo kInfo{"none", "No obscurance", "", "Ambient light reaches every point: the image without obscurance.", 0, {}, {kPresets, 1}};
 
 class None final : public Method {
 public:

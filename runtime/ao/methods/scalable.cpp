@@ -1,46 +1,53 @@
-// Scalable ambient obscurance [McGuire, Mara, Luebke: Scalable Ambient Obscurance, HPG 2012]: to be compared with. Samples lie on a spiral of
-// 7 turns around the pixel, far ones come from coarser depths so that the cost does not grow with the radius, and each, at v from the
-// pixel, counts
+// Scalable ambient obscurance [McGuire, Mara, Luebke: Scalable Ambient Obscurance, HPG 2012]; a baseline method. Samples lie on a spiral of
+// 7 turns around the pixel; distant ones read coarser depths, so the cost does not grow with the radius. With v from the pixel to a
+// sample,
 //     A = 5 sigma / (s r^6) sum over samples of max(0, r^2 - v.v)^3 max(0, (v.n - b) / (v.v + e)),  b = e = 0.01
-// Its falloff is its own, (1 - (d/r)^2)^3, of mean 16/35 r: r is chosen so that the mean is the shared falloff's. The mean of 2x2 pixels, then
-// two passes along rows and columns, two apart, blur what does not differ in depth.
+// Its falloff is (1 - (d/r)^2)^3, of integral 16/35 r; r is chosen so that this equals the integral of the shared falloff. Pixels of
+// similar depth are blurred by a mean of 2x2, then along rows and columns with a stride of 2 px.
 //
-// Differences: normals are the frame's, not differences of depth; levels are 5 of at most 6. `intensity`, `radius_scale` and the blur along
-// the surface are what `tuned` goes further with.
+// Differences: normals are the frame's, not derivatives of depth; 5 depth levels instead of up to 6. The preset `tuned` changes
+// `intensity` and `radius_scale` and blurs along the surface.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: depths, spiral, blur twice.
 #include <iterator>
 
 #include "ao/depth_mips.h"
 #include "ao/mean_reach.h"
-#include "ao/resolve.h"
+#include "ao/denoise.h"
 
 namespace obscura::ao {
 namespace {
 
-constexpr float kOwnReach = 16.0f / 35.0f;  // mean of the method's falloff, in radii
+constexpr float kOwnReach = 16.0f / 35.0f;  // integral of the method's falloff, in radii
 
 enum Blur : uint32_t { kNone, kRowsAndColumns, kSurface };
 const char* const kBlurs[] = {"none", "depth", "surface"};
 const Parameter kParameters[] = {
-    {"samples", "", 1, 100, 9, true, {}, "Samples on the spiral; cost grows with them."},
-    {"turns", "", 1, 64, 7, true, {}, "Turns of the spiral; prime, so that samples do not line up."},
-    {"intensity", "m", 0, 1000, 1, false, {}, "How dark what is blocked becomes, sigma; a length, since the published sum is one over a length."},
-    {"radius_scale", "", 0.1f, 4, 1, false, {}, "How much longer the radius is than the falloff asks for."},
-    {"bias", "m", 0, 100, 0.01f, false, {}, "How far above the tangent plane a sample must lie; hides facets, loses contact."},
-    {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "Over the noise: rows and columns of equal depth as published, or 5x5 along the surface."},
+    {"samples", "", 1, 100, 9, true, {}, "Samples on the spiral. Cost grows with them. Too few: noise."},
+    {"turns", "", 1, 64, 7, true, {}, "Turns of the spiral. Use a prime number, so that samples do not line up into bands."},
+    {"intensity", "m", 0, 1000, 1, false, {},
+     "Strength of obscurance, sigma; a length, because the published sum is one over a length. Too low: too bright; too high: creases "
+     "turn black."},
+    {"radius_scale", "", 0.1f, 4, 1, false, {},
+     "Factor on the radius, which matches the falloff at 1. Too low: only contact shadows are left; too high: small creases are missed."},
+    {"bias", "m", 0, 100, 0.01f, false, {},
+     "Samples lower than this above the tangent plane are ignored. Too low: facets of curved meshes darken; too high: contact shadows "
+     "are lost."},
+    {"denoise", "", 0, 2, 1, true, {kBlurs, 3},
+     "Blur that removes the noise: rows and columns of similar depth, as published, or 5x5 weighted by depth and normal. None: noise "
+     "shows; by depth: it stays on slanted surfaces."},
 };
 const Setting kDense[] = {{"samples", 32}, {"turns", 17}};
 const Setting kTuned[] = {{"samples", 18}, {"intensity", 0.4f}, {"radius_scale", 0.7f}, {"denoise", kSurface}};
 const Preset kPresets[] = {
     {"default", "9 samples on 7 turns, as published.", {}},
-    {"dense", "32 samples.", {kDense, std::size(kDense)}},
-    {"tuned", "18 samples, shorter and lighter, blurred along the surface.", {kTuned, std::size(kTuned)}},
+    {"dense", "32 samples on 17 turns.", {kDense, std::size(kDense)}},
+    {"tuned", "18 samples, 0.7 of the radius, intensity 0.4 m, blurred along the surface.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"scalable",
                        "Scalable ambient obscurance",
                        "McGuire, Mara, Luebke: Scalable Ambient Obscurance, HPG 2012",
-                       "Few samples on a spiral, from coarser depths the farther.",
+                       "A few samples on a spiral; distant ones read coarser depth levels.",
                        kDepth | kNormals,
                        {kParameters, std::size(kParameters)},
                        {kPresets, std::size(kPresets)},
@@ -82,7 +89,7 @@ public:
 private:
     static float radiusOf(const Inputs& inputs, const Values& values) { return values["radius_scale"] * meanReach(inputs.falloffDesc) / kOwnReach; }
 
-    gpu::Program m_spiral[2], m_blur;  // the former without and with the mean of 2x2
+    gpu::Program m_spiral[2], m_blur;  // m_spiral: without and with the mean of 2x2
     DepthMips m_depths;
     Denoise m_denoise;
 };

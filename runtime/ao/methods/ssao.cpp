@@ -1,54 +1,61 @@
-// Screen-space ambient occlusion by point samples [Mittring: Finding Next Gen, CryEngine 2, 2007], in the form that is taught and copied
-// most [de Vries: LearnOpenGL, SSAO]: to be compared with. N points lie in the hemisphere above the pixel, more of them near it; one is
-// blocked when the depth buffer shows something nearer there by a bias:
+// Screen-space ambient occlusion by point samples [Mittring: Finding Next Gen, CryEngine 2, 2007], in its most common form [de Vries:
+// LearnOpenGL, SSAO]; a baseline method. N points lie in the hemisphere above the pixel, denser near it. A point is blocked if the depth
+// buffer there is nearer than the point by a bias:
 //     A = 1/N sum over points of [z buffer <= z point - bias] smoothstep(0, 1, R / |z pixel - z buffer|)
-// The smoothstep leaves out what stands far in front. The kernel is turned about the normal, one of 16 ways over a 4x4 tile, and the mean
-// of 4x4 pixels takes that out. Points lie u mix(0.1, 1, v^2) R from the pixel, u and v even in [0,1): in a direction that is blocked
-// from d on they count by the share of points beyond d, which falls like a falloff of mean 0.2 R. So R is 5 times the shared falloff's.
-// Published as random numbers, the kernel is a lattice here [Roberts 2018].
+// The smoothstep excludes surfaces far in front. The kernel is rotated about the normal, in one of 16 ways over a 4x4 tile, and a mean of
+// 4x4 pixels removes the pattern. Points lie at distance u mix(0.1, 1, v^2) R, u and v uniform in [0,1). An occluder at distance d blocks
+// the fraction of points beyond d, a falloff of integral 0.2 R, so R is 5 times the integral of the shared falloff.
+// The published random kernel is replaced by a lattice [Roberts 2018].
 //
-// `kernel` falloff goes further, off by default: the share of points beyond d is the falloff's rho(d) itself, and directions are
-// cosine-weighted: then points are samples of what obscurance is defined by.
+// `kernel` falloff extends this, off by default: the fraction of points beyond d is the falloff rho(d), and directions are
+// cosine-weighted, so that points sample the definition of obscurance.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: points, blur.
 #include <cmath>
 #include <iterator>
 
 #include "ao/mean_reach.h"
-#include "ao/resolve.h"
+#include "ao/denoise.h"
 
 namespace obscura::ao {
 namespace {
 
-constexpr float kOwnReach = 0.2f;  // mean of the published kernel's falloff, in radii
+constexpr float kOwnReach = 0.2f;  // integral of the published kernel's falloff, in radii
 
 enum Blur : uint32_t { kNone, kBox, kSurface };
 const char* const kKernels[] = {"published", "falloff"};
 const char* const kBlurs[] = {"none", "box", "surface"};
 const Parameter kParameters[] = {
-    {"samples", "", 4, 256, 64, true, {}, "Points in the hemisphere; cost grows with them."},
-    {"kernel", "", 0, 1, 0, true, {kKernels, 2}, "How points lie: as published, or cosine-weighted and as far out as the falloff counts."},
-    {"radius_scale", "", 0.1f, 4, 1, false, {}, "How much longer all points are drawn out."},
-    {"bias", "m", 0, 100, 0.025f, false, {}, "How much nearer the depth buffer must be to block a point; hides facets, loses contact."},
-    {"denoise", "", 0, 2, 1, true, {kBlurs, 3}, "Over the 4x4 noise tile: the mean of 4x4 as published, or along the surface."},
+    {"samples", "", 4, 256, 64, true, {}, "Points in the hemisphere. Cost grows with them. Too few: noise."},
+    {"kernel", "", 0, 1, 0, true, {kKernels, 2},
+     "Distribution of the points: as published, or cosine-weighted with distances that follow the falloff. As published, occluders near "
+     "the horizon count too much."},
+    {"radius_scale", "", 0.1f, 4, 1, false, {},
+     "Factor on the distance of all points. Too low: only contact shadows are left; too high: small creases are missed."},
+    {"bias", "m", 0, 100, 0.025f, false, {},
+     "How much nearer the depth buffer must be to block a point. Too low: facets of curved meshes darken; too high: contact shadows are "
+     "lost."},
+    {"denoise", "", 0, 2, 1, true, {kBlurs, 3},
+     "Blur that removes the 4x4 noise pattern: a mean of 4x4 pixels, as published, or 5x5 weighted by depth and normal. None: the "
+     "pattern shows; the mean blurs across edges."},
 };
 const Setting kFast[] = {{"samples", 16}};
 const Setting kTuned[] = {{"samples", 29}, {"kernel", 1}, {"radius_scale", 0.7f}, {"bias", 0.00262f}, {"denoise", kSurface}};
 const Preset kPresets[] = {
-    {"default", "64 points as published.", {}},
-    {"fast", "16 of them.", {kFast, std::size(kFast)}},
-    {"tuned", "29 cosine-weighted points as far out as the falloff counts, blurred along the surface.", {kTuned, std::size(kTuned)}},
+    {"default", "64 points, as published.", {}},
+    {"fast", "16 points, distributed as published.", {kFast, std::size(kFast)}},
+    {"tuned", "29 cosine-weighted points whose distances follow the falloff, blurred along the surface.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"ssao",
                        "Screen-space ambient occlusion",
                        "Mittring: Finding Next Gen, CryEngine 2, SIGGRAPH 2007 courses; hemisphere form: de Vries, LearnOpenGL",
-                       "Points in the hemisphere that lie behind the depth buffer.",
+                       "Tests points in the hemisphere against the depth buffer.",
                        kDepth | kNormals,
                        {kParameters, std::size(kParameters)},
                        {kPresets, std::size(kPresets)},
                        true};
 
-// The distance beyond which a falloff is less than u.
+// Distance, metres, beyond which the falloff is below u.
 float distanceOf(const Falloff& falloff, float u) {
     float low = 0.0f, high = reach(falloff);
     for (int i = 0; i < 24; ++i) {
@@ -60,10 +67,10 @@ float distanceOf(const Falloff& falloff, float u) {
 
 std::vector<shared::vec4> kernelOf(const Falloff& falloff, uint32_t samples, bool published, float scale) {
     std::vector<shared::vec4> kernel;
-    const auto part = [](uint32_t i, double step) { return float(std::fmod(0.5 + i * step, 1.0)); };
+    const auto lattice = [](uint32_t i, double step) { return float(std::fmod(0.5 + i * step, 1.0)); };
     for (uint32_t i = 0; i < samples; ++i) {
         const float up = 1.0f - (float(i) + 0.5f) / float(samples), z = published ? up : std::sqrt(up), r = std::sqrt(1.0f - z * z);
-        const float phi = 6.2831853f * part(i, 0.618033989), u = part(i, 0.754877666), v = part(i, 0.569840291);
+        const float phi = 6.2831853f * lattice(i, 0.618033989), u = lattice(i, 0.754877666), v = lattice(i, 0.569840291);
         const float length = scale * (published ? meanReach(falloff) / kOwnReach * u * (0.1f + 0.9f * v * v) : distanceOf(falloff, u));
         kernel.push_back({length * r * std::cos(phi), length * r * std::sin(phi), length * z, 0.0f});
     }

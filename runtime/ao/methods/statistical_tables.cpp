@@ -11,7 +11,7 @@ using shared::uvec2;
 struct TexelConstants { Box box; uvec2 size; };
 struct LayerConstants { Box box; uvec2 size; uint32_t uniformLayers; };
 
-const uvec2 kBlock{128, 32};  // pixels that a workgroup of extent.comp covers
+const uvec2 kBlock{128, 32};  // px, covered by a workgroup of extent_blocks.comp
 
 }  // namespace
 
@@ -32,8 +32,8 @@ StatisticalTables::Tables StatisticalTables::add(graph::Graph& graph, const Inpu
     const auto& view = inputs.view;
     const auto sizeOf = [&](uint32_t side) { return uvec2{(view.size.x + side - 1) / side, (view.size.y + side - 1) / side}; };
     while (SummedArea::bytes(sizeOf(box.texelSide), levels > 1 ? 1u << (levels - 1) : 2) > m_largest) box.texelSide *= 2;
-    // The fixed point's bound needs room for at least a few units over the whole depth range (fixed_point.h).
-    assert(4.0f * (box.largest + float(box.texelSide)) * (box.largest + float(box.texelSide)) < 1.0e8f && "statistical: windows this large leave no precision in 32 bits");
+    // The bound of the fixed point must leave a few units over the whole depth range (fixed_point.h).
+    assert(4.0f * (box.largest + float(box.texelSide)) * (box.largest + float(box.texelSide)) < 1.0e8f && "statistical: the window is too large for 32-bit sums: lower `largest` or the image height");
 
     Tables t{box, sizeOf(box.texelSide), {}, {}, {}, {}, {}};
     const uvec2 blocks{(view.size.x + kBlock.x - 1) / kBlock.x, (view.size.y + kBlock.y - 1) / kBlock.y};

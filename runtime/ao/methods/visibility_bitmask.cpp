@@ -1,21 +1,21 @@
-// Visibility bitmask [Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023], what engines took up
-// after GTAO: to be compared with. Slices of the hemisphere through the view ray are GTAO's (gtao.cpp), but instead of two horizons a
-// slice has 32 sectors of equal angle about the normal, and everything is `thickness` thick: a sample d from the pixel covers the
-// sectors from the angle of d to that of d - thickness v, so that light passes behind what is thin.
-//     A = 1/N sum over slices of 1/32 * sum over sectors covered of rho(d of what covered it first)
-// The published sum has no falloff: with `constant` that is what this is. Sectors that are touched are covered, as published.
+// Visibility bitmask [Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023], as used by engines after
+// GTAO; a baseline method. Slices of the hemisphere through the view ray are GTAO's (gtao.cpp), but instead of two horizons a slice has 32
+// sectors of equal angle about the normal, and every surface is `thickness` thick: a sample at d from the pixel covers the sectors from the
+// angle of d to that of d - thickness v, so that light passes behind thin objects.
+//     A = 1/N sum over slices of 1/32 * sum over covered sectors of rho(d of the first sample that covered it)
+// The published sum has no falloff; the falloff `constant` reproduces it. A sector that is touched is covered, as published.
 //
-// `sectors` equal weight goes further, off by default: sectors hold equal parts of the cosine-weighted solid angle (which obscurance is
-// defined by; equal angles weigh the horizon too much), are rounded instead of touched, and samples in the pixel's tangent plane are
-// left out; `axis` makes slices even around the view ray.
+// `sectors` equal weight extends this, off by default: sectors have equal cosine-weighted solid angle, as in the definition of obscurance
+// (equal angles weight the horizon too much), coverage is rounded, and samples in the tangent plane are left out. `axis` spaces slices
+// evenly around the view ray.
 //
-// Samples, noise, depth levels and denoiser are XeGTAO's, with which engines ship it. Reads linear depth and normals, guard band
+// Samples, noise, depth levels and denoiser are XeGTAO's, as in engines. Reads linear depth and normals, guard band
 // included; writes visibility of the visible part. Passes: depths, sectors, denoise twice.
 #include <iterator>
 
 #include "ao/depth_mips.h"
 #include "ao/edge_blur.h"
-#include "ao/resolve.h"
+#include "ao/denoise.h"
 #include "ao/slices.h"
 
 namespace obscura::ao {
@@ -32,8 +32,11 @@ const char* const kSectors[] = {"equal angle", "equal weight"};
 const Parameter kParameters[] = {
     kSlices,
     kSliceSteps,
-    {"thickness", "m", 0.001f, 1000, 0.25f, false, {}, "How thick everything is taken to be."},
-    {"sectors", "", 0, 1, 0, true, {kSectors, 2}, "What the 32 sectors of a slice share out: its angle as published, or its cosine-weighted part of the hemisphere."},
+    {"thickness", "m", 0.001f, 1000, 0.25f, false, {},
+     "Assumed thickness of everything. Too low: light leaks through solid objects; too high: dark halos around foreground objects."},
+    {"sectors", "", 0, 1, 0, true, {kSectors, 2},
+     "What the 32 sectors of a slice divide evenly: its angle, as published, or its cosine-weighted solid angle. Equal angles count "
+     "occluders near the horizon too much."},
     kSliceAxis,
     kSliceMipOffset,
     kSliceDenoise,
@@ -41,17 +44,17 @@ const Parameter kParameters[] = {
 const Setting kFilament[] = {{"slices", 4}, {"thickness", 0.5f}};
 const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"thickness", 0.5f}, {"sectors", 1}, {"axis", 1}, {"denoise", float(SliceBlur::surface)}};
 const Preset kPresets[] = {
-    {"default", "3 slices x 3 steps a side, surfaces 0.25 m thick: Bevy's high.", {}},
-    {"low", "Bevy's low: 1 x 2.", {kSlicesLow, std::size(kSlicesLow)}},
-    {"medium", "Bevy's medium: 2 x 2.", {kSlicesMedium, std::size(kSlicesMedium)}},
-    {"ultra", "Bevy's ultra: 9 x 3.", {kSlicesUltra, std::size(kSlicesUltra)}},
-    {"filament", "Filament's thickness: 4 x 3, 0.5 m.", {kFilament, std::size(kFilament)}},
-    {"tuned", "1 x 9, half a metre, sectors of equal weight, slices around the view ray.", {kTuned, std::size(kTuned)}},
+    {"default", "3 slices x 3 steps per side, surfaces 0.25 m thick: Bevy's high.", {}},
+    {"low", "1 slice x 2 steps: Bevy's low.", {kSlicesLow, std::size(kSlicesLow)}},
+    {"medium", "2 slices x 2 steps: Bevy's medium.", {kSlicesMedium, std::size(kSlicesMedium)}},
+    {"ultra", "9 slices x 3 steps: Bevy's ultra.", {kSlicesUltra, std::size(kSlicesUltra)}},
+    {"filament", "4 slices x 3 steps, surfaces 0.5 m thick, as in Filament.", {kFilament, std::size(kFilament)}},
+    {"tuned", "1 slice x 9 steps, surfaces 0.5 m thick, sectors of equal weight, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"visibility_bitmask",
                        "Visibility bitmask",
                        "Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023",
-                       "Sectors of slices through the view ray, covered by samples of a constant thickness.",
+                       "A bitmask of 32 sectors for each slice through the view ray; samples of constant thickness cover sectors.",
                        kDepth | kNormals,
                        {kParameters, std::size(kParameters)},
                        {kPresets, std::size(kPresets)},
@@ -82,7 +85,7 @@ public:
         return blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "visibility_bitmask.blur") : visibility;
     }
 
-    // What passes behind a sample at more than its thickness has not been counted.
+    // Rays farther behind a sample than its thickness have not been counted.
     Blocking blocking(const Inputs& inputs, const Values& values) const override { return {inputs.falloff.reach, values["thickness"]}; }
 
 private:

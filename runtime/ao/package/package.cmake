@@ -9,7 +9,7 @@ include(CheckLinkerFlag)
 
 # device_create and loader make a device of the sample's own, which takes the Vulkan loader; a host has its device.
 # exporting: the files of runtime/ao that define the functions of ao.h.
-set(exporting context falloff registry)
+set(exporting context context_create context_method falloff registry)
 list(JOIN exporting | exporting_pattern)
 set(objects)
 set(hidden_objects)

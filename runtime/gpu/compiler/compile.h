@@ -6,9 +6,9 @@
 
 namespace obscura::gpu {
 
-// A gpu::CompileShader. The stage follows from the extension: .comp, .vert or .frag. #include "x" looks beside the including
-// file, then below `root`; #include <x> below `root`, then where the system's GLSL headers are. Needs no #extension line; a file with #pragma once counts once.
-// `error`: one line a message, "shaders/ao/x.comp:12: message", paths from the root's own folder on. Any thread may call it.
+// A gpu::CompileShader. The stage follows from the extension: .comp, .vert or .frag. #include "x" looks beside the including file, then
+// below `root`; #include <x> below `root`, then where the system's GLSL headers are. Needs no #extension line; a file with #pragma once
+// counts once. `error`: one line a message, "shaders/ao/x.comp:12: message", paths from the root's own folder on. Any thread may call it.
 bool compileShader(const std::filesystem::path& file, const std::filesystem::path& root, Shader& out, std::string& error,
                    std::vector<std::filesystem::path>& dependencies);
 

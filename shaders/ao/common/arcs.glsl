@@ -1,4 +1,4 @@
-// Inverse trigonometry by polynomials: a fraction of the library's cost.
+// Inverse trigonometric functions as polynomials, cheaper than the built-in ones.
 #ifndef OBSCURA_ARCS_GLSL
 #define OBSCURA_ARCS_GLSL
 

@@ -1,5 +1,5 @@
 // 5x5 bilateral blur of visibility: Gaussian (6, 4, 1) x max(0, n.n') x 1/(1 + 200 plane distance / depth). The
-// plane distance is that of the neighbour from this pixel's tangent plane, so a slanted floor is not an edge.
+// plane distance is the neighbour's from this pixel's tangent plane, so slanted floors are not edges.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"
@@ -11,8 +11,8 @@ layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
 layout(set = 0, binding = 4, r16f) uniform writeonly image2D result;
 
-const float kPlane = 200.0;  // per unit of plane distance over depth: 40 per metre at 5 m, at any world scale
-const float kStrictPlane = 1600.0;  // where a history takes noise out; normals then count with their eighth power
+const float kPlane = 200.0;         // per unit of plane distance / depth: 40 per metre at 5 m
+const float kStrictPlane = 1600.0;  // kStrict, with history: cosines of normals are then raised to the power 8
 layout(constant_id = 0) const bool kStrict = false;
 
 void main() {
@@ -26,7 +26,7 @@ void main() {
         return;
     }
     vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
-    // A neighbour lies off the tangent plane by (its depth) x (r.n) - here.n, and r.n, of its ray r, changes evenly over the picture.
+    // A neighbour's plane distance is depth (r.n) - here.n with r its view ray; r.n is linear over the image.
     vec2 along = view.unproject.xy * n.xy;
     float ray = dot(vec2(p + guard) + 0.5, along) + dot(view.unproject.zw, n.xy);
     bool orthographic = view.orthographic > 0.5;
@@ -43,14 +43,14 @@ void main() {
             float rayThere = ray + dot(vec2(q - p), along);
             float plane = abs((orthographic ? rayThere : rayThere * zq) - zq * n.z - height);
             vec3 m = directionOf(imageLoad(normals, q + guard).x);
-            float facing = max(0.0, dot(n, m)), square = dot(m, m), soft = 1.0 + sharpness * plane;
+            float cosine = max(0.0, dot(n, m)), square = dot(m, m), soft = 1.0 + sharpness * plane;
             float w = kernel[abs(x)] * kernel[abs(y)];
             if (kStrict) {
-                float even = facing * facing / square;
-                even *= even;
-                w *= even * even / soft;
+                float cosine2 = cosine * cosine / square;
+                cosine2 *= cosine2;  // the power 4
+                w *= cosine2 * cosine2 / soft;
             } else {
-                w *= facing / (sqrt(square) * soft);
+                w *= cosine / (sqrt(square) * soft);
             }
             w = inside ? w : 0.0;
             sum += w * imageLoad(source, q).x;

@@ -1,6 +1,6 @@
-// Levels of linear depth, all in one pass: a workgroup reduces 16x16 pixels. Where they lie: ao/common/depth_mips.glsl.
-// kFarthest: the mean of what is not much nearer than the farthest of four, so that thin things thin out instead of growing [XeGTAO].
-// Else one of the four, another in every row and column [McGuire 2012, sec. 2.2]. In: linear depth, guard band included.
+// Levels of linear depth in one pass: a workgroup reduces 16x16 pixels. Layout: ao/common/depth_mips.glsl.
+// kFarthest: mean of the texels that are not much nearer than the farthest of four, so that thin objects fade instead of growing [XeGTAO].
+// Else one of the four, chosen by row and column [McGuire 2012, sec. 2.2]. In: linear depth, guard band included.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/depth_mips.glsl"
@@ -8,8 +8,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 1, r32f) uniform writeonly image2D mips;
 layout(push_constant) uniform Constants {
-    float range;  // metres: what is so much nearer than the farthest counts nothing
-    float fade;   // part of it over which weights fall from 1
+    float range;  // metres: texels nearer than the farthest by more have weight 0
+    float fade;   // fraction of `range` over which weights fall from 1 to 0
 };
 layout(constant_id = 0) const bool kFarthest = true;
 
@@ -34,16 +34,16 @@ void main() {
         z[i] = imageLoad(depth, min(p, last)).x;
         imageStore(mips, p, vec4(z[i]));
     }
-    float mine = reduce(uvec2(quad), z);
-    imageStore(mips, mipTexel(padded, 2 * quad, 1), vec4(mine));
+    float reduced = reduce(uvec2(quad), z);
+    imageStore(mips, mipTexel(padded, 2 * quad, 1), vec4(reduced));
     for (int level = 2; level < kDepthLevels; ++level) {
         int step = 1 << (level - 2);  // between the texels of the level before
-        scratch[own.y][own.x] = mine;
+        scratch[own.y][own.x] = reduced;
         barrier();
         if (all(equal(own & (2 * step - 1), ivec2(0)))) {
-            z = vec4(mine, scratch[own.y][own.x + step], scratch[own.y + step][own.x], scratch[own.y + step][own.x + step]);
-            mine = reduce(uvec2(quad >> (level - 1)), z);
-            imageStore(mips, mipTexel(padded, 2 * quad, level), vec4(mine));
+            z = vec4(reduced, scratch[own.y][own.x + step], scratch[own.y + step][own.x], scratch[own.y + step][own.x + step]);
+            reduced = reduce(uvec2(quad >> (level - 1)), z);
+            imageStore(mips, mipTexel(padded, 2 * quad, level), vec4(reduced));
         }
         barrier();
     }

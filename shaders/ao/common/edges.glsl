@@ -1,11 +1,11 @@
-// What a pass hands to runtime/ao/edge_blur.h: visibility, which single pixels may have above 1, and how connected a pixel is to its four
-// neighbours, in two bits each [XeGTAO].
+// Packing of noisy visibility and edges for runtime/ao/edge_blur.h [XeGTAO]: visibility, up to kMostVisible in single pixels, and the
+// connection to the four neighbours in two bits each.
 #ifndef OBSCURA_EDGES_GLSL
 #define OBSCURA_EDGES_GLSL
 
 const float kMostVisible = 1.5;
 
-// 1: connected, 0: an edge, to the left, right, top and bottom, from the depths there. A slope is no edge.
+// Connection (1) or edge (0) to the left, right, top and bottom neighbour, whose depths are `around`. A slope is not an edge.
 vec4 edgesAt(float z, vec4 around) {
     vec4 steps = around - z;
     vec2 slope = 0.5 * (steps.yw - steps.xz);

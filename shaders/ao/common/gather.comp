@@ -1,4 +1,4 @@
-// Interleaving's gather over the picture; see gather.glsl. Surfaces are those of linear depth and packed normals.
+// Gather of interleaved shares over the image; see gather.glsl. In: linear depth, packed normals.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/tile.glsl"
@@ -8,7 +8,7 @@ layout(constant_id = 0) const bool kWeighted = false;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
-layout(set = 0, binding = 3) uniform sampler2D parts;
+layout(set = 0, binding = 3) uniform sampler2D shares;
 layout(set = 0, binding = 4) uniform sampler2D open;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Constants { uint side; };

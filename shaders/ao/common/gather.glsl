@@ -1,8 +1,7 @@
-// Brings together what the pixels of a tile found [Timonen 2013, sec. 10]: the mean over the side x side pixels around that lie on this
-// pixel's surface. An even side has no middle: a pixel more, the outer ones counting half, keeps every share's weight and the picture
-// in place.
-// In: view, what the pixels show; visibility or, with kWeighted, (w obscurance, w), taken off `open`. Out: visibility.
-// The includer says which pixels and what they show: ivec2 pixels(view), float depth = surfaceAt(view, pixel, out here, out normal).
+// Gather of interleaved shares [Timonen 2013, sec. 10]: mean over the side x side neighbours on this pixel's surface. For an even side the
+// window is one pixel wider and its outer pixels have half weight, so that all shares weigh the same and the window is centred.
+// In: visibility of shares or, with kWeighted, (w obscurance, w), whose mean is subtracted from `open`. Out: visibility.
+// The includer defines ivec2 pixels(view), the size, and float depth = surfaceAt(view, pixel, out here, out normal).
 #ifndef OBSCURA_GATHER_GLSL
 #define OBSCURA_GATHER_GLSL
 
@@ -22,8 +21,8 @@ void main() {
             surfaceAt(view, q, there, m);
             bool same = at == q && ofSurface(here, n, z, there, m);
             float w = same || (x == 0 && y == 0) ? (abs(x) == reach ? outer : 1.0) * (abs(y) == reach ? outer : 1.0) : 0.0;
-            vec2 part = texelFetch(parts, q, 0).xy;
-            sum += w * (kWeighted ? part : vec2(part.x, 1.0));
+            vec2 share = texelFetch(shares, q, 0).xy;
+            sum += w * (kWeighted ? share : vec2(share.x, 1.0));
         }
     }
     float mean = sum.x / max(sum.y, 1e-6);

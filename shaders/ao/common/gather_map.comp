@@ -1,5 +1,5 @@
-// Interleaving's gather over a map with fewer pixels than the picture (runtime/ao/upsample.h); see gather.glsl. Surfaces are those of
-// the map's receivers, each taken for the middle of the pixels it stands for.
+// Gather of interleaved shares over a map of fewer pixels than the image (runtime/ao/upsample.h); see gather.glsl. In: the map's receivers;
+// each is treated as if at the middle of its pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/tile.glsl"
@@ -8,12 +8,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kWeighted = false;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, rg32ui) uniform readonly uimage2D receivers;
-layout(set = 0, binding = 2) uniform sampler2D parts;
+layout(set = 0, binding = 2) uniform sampler2D shares;
 layout(set = 0, binding = 3) uniform sampler2D open;
 layout(set = 0, binding = 4, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Constants {
     uint side;
-    float scale;  // pixels a map's pixel, each way
+    float scale;  // image pixels per map pixel, each way
 };
 
 ivec2 pixels(View view) { return imageSize(receivers); }

@@ -1,10 +1,10 @@
-// Noise in space and time: place along a Hilbert curve through each 64x64 pixels drives the R2 sequence [Roberts 2018, The
-// Unreasonable Effectiveness of Quasirandom Sequences], so that pixels near each other draw points far apart; a frame moves on by 288.
+// Spatio-temporal noise [XeGTAO]: the index along a Hilbert curve over 64x64 pixels selects a point of the R2 sequence [Roberts 2018, The
+// Unreasonable Effectiveness of Quasirandom Sequences], so that neighbouring pixels get distant points. Each frame adds 288 to the index.
 #ifndef OBSCURA_HILBERT_GLSL
 #define OBSCURA_HILBERT_GLSL
 #include "shared/view.h"
 
-// Index along the curve of order 6. Each level adds the quadrant's rank, and turns what is left into the quadrant's own frame.
+// Index along the curve of order 6. Each level appends the quadrant's rank and transforms p into the quadrant's frame.
 uint hilbertIndex(uvec2 p) {
     p &= 63u;
     uint index = 0u;

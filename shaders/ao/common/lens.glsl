@@ -1,9 +1,9 @@
-// Lines in eye space told as pixels: kept in homogeneous pixels, so that a step costs two additions and one division.
+// Eye-space lines in homogeneous pixel coordinates, so that a step costs two additions and one division.
 #ifndef OBSCURA_LENS_GLSL
 #define OBSCURA_LENS_GLSL
 #include "shared/view.h"
 
-// The camera as a line needs it. `scale` of a depth is what one metre across has grown to: (depth, or 1 when orthographic).
+// Projection parameters. scale(depth), the width of the view in units of that at depth 1: depth, or 1 if orthographic.
 struct Lens {
     vec4 project, unproject;
     vec2 scale;     // scale(depth) = depth * x + y
@@ -13,7 +13,7 @@ Lens lensOf(View view) {
     return Lens(view.project, view.unproject, view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0), view.size);
 }
 vec3 toPixels(Lens lens, vec3 v) { return vec3(v.xy * lens.project.xy, -v.z); }
-// The texel a homogeneous point falls on, and whether it is one: in front of the camera and inside the buffer.
+// The texel of a homogeneous point, clamped to the buffer. Returns whether it is in front of the camera and inside the buffer.
 bool texelOf(Lens lens, vec3 q, out ivec2 texel) {
     vec2 at = q.xy / (q.z * lens.scale.x + lens.scale.y) + lens.project.zw;
     uvec2 t = uvec2(ivec2(at));

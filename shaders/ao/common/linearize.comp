@@ -1,5 +1,5 @@
-// Device or linear depth of any format -> linear depth, R32F, metres. What is not finite, behind the camera or at the far
-// plane becomes sky.
+// Device or linear depth of any format -> linear depth, R32F, metres. Values that are not finite, behind the camera or at the far plane
+// become sky.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/view.h"

@@ -1,6 +1,6 @@
-// What passes share that trace the volume on a map with fewer pixels than the picture (runtime/ao/upsample.h): bindings, which pixel
-// receives, noise that rests on surfaces, a frame around a normal. The includer says VOLUME_BINDING 2 (shared/volume.h).
-// In: view, volume, linear depth, packed normals. Out: visibility of the map's receivers, and what they are.
+// Shared by passes that trace the volume on a map of fewer pixels than the image (runtime/ao/upsample.h): bindings, choice of the receiver,
+// noise fixed in the world, a basis around a normal. The includer defines VOLUME_BINDING 2 (shared/volume.h).
+// In: view, volume, linear depth, packed normals. Out: visibility and depth and normal of the map's receivers.
 #ifndef OBSCURA_MAP_GLSL
 #define OBSCURA_MAP_GLSL
 #include "shared/octahedral.glsl"
@@ -14,27 +14,27 @@ layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D map;
 layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D receivers;  // linear depth as bits, packed normal
 
-// Of the `every` x `every` pixels that the map's pixel p stands for, the one that faces most as all of them do, guard band counted:
-// a ledge a pixel wide is not sampled by chance, here and there.
+// Receiver of map pixel p: of its `every` x `every` image pixels, the one whose normal is closest to their mean, so that features one pixel
+// wide are not picked at random. Result in buffer pixels, guard band included.
 ivec2 receiverOf(View view, ivec2 p, int every) {
     ivec2 corner = p * every + ivec2(view.guard), last = ivec2(view.visible) - 1 + ivec2(view.guard);
-    vec3 together = vec3(0.0);
+    vec3 normalSum = vec3(0.0);
     for (int i = 0; i < every * every; ++i) {
         ivec2 q = min(corner + ivec2(i % every, i / every), last);
-        together += isSky(view, imageLoad(depth, q).x) ? vec3(0.0) : unpackNormal(imageLoad(normals, q).x);
+        normalSum += isSky(view, imageLoad(depth, q).x) ? vec3(0.0) : unpackNormal(imageLoad(normals, q).x);
     }
     float best = -1e9;
     ivec2 texel = corner;
     for (int i = 0; i < every * every; ++i) {
         ivec2 q = min(corner + ivec2(i % every, i / every), last);
-        float agrees = isSky(view, imageLoad(depth, q).x) ? -1e8 : dot(together, unpackNormal(imageLoad(normals, q).x));
-        texel = agrees > best + 1e-4 ? q : texel;
-        best = max(best, agrees);
+        float agreement = isSky(view, imageLoad(depth, q).x) ? -1e8 : dot(normalSum, unpackNormal(imageLoad(normals, q).x));
+        texel = agreement > best + 1e-4 ? q : texel;
+        best = max(best, agreement);
     }
     return texel;
 }
 
-// Notes the receiver of the map's pixel p: where it is and its normal, towards the eye. False: it is sky, and open.
+// Stores the receiver of map pixel p. Out: its position and its normal towards the eye. False: sky; visibility 1 is stored.
 bool receive(View view, ivec2 p, int every, out vec3 here, out vec3 n) {
     ivec2 texel = receiverOf(view, p, every);
     float z = imageLoad(depth, texel).x;
@@ -47,9 +47,9 @@ bool receive(View view, ivec2 p, int every, out vec3 here, out vec3 n) {
     return !isSky(view, z);
 }
 
-// Which cell of a lattice that rests in the world a place on a surface lies in, the lattice's `grain` cells of the volume a side. Looked up a
-// little off the surface: floors and walls like to stand where cells meet, and there rounding would shuffle noise. What lies far from the
-// world's origin is counted in integers.
+// Cell of a world-fixed lattice, `grain` volume cells a side, that contains a surface point. The point is offset along the normal, because
+// floors and walls are often on cell boundaries, where rounding would make noise flicker. The window's origin is added in integers, which
+// keeps precision far from the world's origin.
 const float kOffSurface = 0.31;  // cells
 ivec3 latticeCell(Volume v, vec3 place, vec3 normal, float grain) {
     float side = v.shift.w == 0u ? 1024.0 : float(v.shift.w);
@@ -66,7 +66,7 @@ vec3 cellNoise(ivec3 cell) {
 }
 
 // Two unit vectors across a unit vector [Duff 2017, Building an Orthonormal Basis, Revisited].
-void around(vec3 n, out vec3 tangent, out vec3 bitangent) {
+void basisAround(vec3 n, out vec3 tangent, out vec3 bitangent) {
     float s = n.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;
     tangent = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
     bitangent = vec3(b, s + n.y * n.y * a, -n.y);

@@ -1,4 +1,4 @@
-// Octahedral normals of a host -> packed eye-space normals (turned when they are in world space).
+// Octahedral normals of the host -> packed eye-space normals, rotated if they are in world space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"

@@ -1,5 +1,5 @@
-// Geometric normals from linear depth alone. On each axis the side whose two texels extrapolate to this pixel best is the
-// side that lies on the same surface; the cross product of the two chosen differences is the normal.
+// Geometric normals from linear depth. On each axis the side whose two texels extrapolate best to this pixel is taken to be on the same
+// surface; the normal is the cross product of the two chosen differences.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/octahedral.glsl"

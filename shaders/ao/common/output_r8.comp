@@ -1,4 +1,4 @@
-// Visibility as a host asked for it: eight bits, rounded to the nearest.
+// Visibility in 8 bits, rounded to nearest, for VisibilityFormat::r8.
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, r16f) uniform readonly image2D visibility;

@@ -1,5 +1,5 @@
-// What methods share that search slices of the hemisphere through the view ray, as GTAO does [Jimenez 2016, alg. 1; XeGTAO]: bindings,
-// which pixel receives, slices and samples along them. In: packed normals, depth and its coarser levels, guard band included.
+// Shared by methods that search slices of the hemisphere through the view ray, as GTAO does [Jimenez 2016, alg. 1; XeGTAO]: bindings,
+// receiver, slices and samples. In: packed normals, depth and its coarser levels, guard band included.
 // Out: visibility and edges, see ao/common/edges.glsl.
 #ifndef OBSCURA_SLICE_GLSL
 #define OBSCURA_SLICE_GLSL
@@ -15,18 +15,18 @@ layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 2, r32f) uniform readonly image2D depths;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimage2D noisy;
 
-const float kTooClose = 1.3;  // px: nearer samples tell nothing
+const float kTooClose = 1.3;  // px: nearer samples are the pixel itself
 
 struct Receiver {
-    vec2 pixel;    // its centre, guard band counted
+    vec2 pixel;    // its centre, guard band included
     ivec2 last, padded;
     vec3 here, v, n;
     float nv;      // dot(n, v)
     float radius;  // the reach, px
-    vec2 noise;    // turns slices, shifts samples
+    vec2 noise;    // rotation of slices, shift of samples
     uint edges;
 };
-// False: nothing receives here, and that is stored.
+// False: outside, or sky, for which visibility 1 is stored.
 bool receive(View view, ivec2 p, float reach, out Receiver r) {
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return false;
     ivec2 texel = p + ivec2(view.guard);
@@ -36,7 +36,7 @@ bool receive(View view, ivec2 p, float reach, out Receiver r) {
     r.edges = packEdges(edgesAt(z, vec4(imageLoad(depths, max(texel - ivec2(1, 0), 0)).x, imageLoad(depths, min(texel + ivec2(1, 0), r.last)).x,
                                         imageLoad(depths, max(texel - ivec2(0, 1), 0)).x, imageLoad(depths, min(texel + ivec2(0, 1), r.last)).x)));
     r.pixel = vec2(texel) + 0.5;
-    r.here = eyePosition(view, r.pixel, z * 0.99999);  // a little nearer: depths round
+    r.here = eyePosition(view, r.pixel, z * 0.99999);  // bias against rounding of depth
     r.v = towardsEye(view, r.here);
     r.n = unpackNormal(imageLoad(normals, texel).x);
     r.n = dot(r.n, r.v) < 0.0 ? -r.n : r.n;
@@ -52,8 +52,8 @@ struct Slice {
     vec3 across;
     vec2 along;  // px, unit length
 };
-// Slices lie evenly on the screen, as published, and are then not quite even around the view ray off the picture's centre; or evenly
-// around the view ray: then they make up the hemisphere everywhere.
+// Slices are evenly spaced on the screen, as published, which is uneven around the view ray away from the image centre; or, with
+// aroundRay, evenly around the view ray.
 Slice sliceAt(View view, Receiver r, float angle, bool aroundRay) {
     vec3 d = vec3(cos(angle), sin(angle), 0.0);
     if (!aroundRay) return Slice(normalize(d - dot(d, r.v) * r.v), d.xy * sign(view.project.xy));
@@ -61,11 +61,11 @@ Slice sliceAt(View view, Receiver r, float angle, bool aroundRay) {
     vec2 along = (view.orthographic > 0.5 ? across.xy : across.xy * -r.here.z + r.here.xy * across.z) * view.project.xy;
     return Slice(across, along * inversesqrt(max(dot(along, along), 1e-20)));
 }
-// Where in its stratum sample i of slice k lies, 0 to 1 along the reach.
-float placeOf(Receiver r, uint k, uint i, uint steps) { return (float(i) + fract(r.noise.y + float(k + i * steps) * 0.61803399)) / float(steps); }
+// Jittered position of sample i of slice k, 0 to 1 along the reach.
+float samplePlace(Receiver r, uint k, uint i, uint steps) { return (float(i) + fract(r.noise.y + float(k + i * steps) * 0.61803399)) / float(steps); }
 int levelAt(float distance, float mipOffset) { return int(clamp(log2(distance) + 0.5 - mipOffset, 0.0, float(kDepthLevels) - 0.5)); }
-// From the pixel to what the depth buffer shows at a place.
-vec3 towards(View view, Receiver r, vec2 at, int level) {
+// Vector from the receiver to the surface in the depth buffer at a place.
+vec3 toSurface(View view, Receiver r, vec2 at, int level) {
     return eyePosition(view, at, imageLoad(depths, mipTexel(r.padded, clamp(ivec2(at), ivec2(0), r.last), level)).x) - r.here;
 }
 

@@ -1,4 +1,4 @@
-// Up to two spans of matter a pixel, as spans.glsl describes them.
+// Packs two depth layers per pixel; layout: spans.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/pack_spans.glsl"

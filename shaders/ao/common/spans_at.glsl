@@ -1,4 +1,4 @@
-// What depth, normal and depth layers say is solid behind a pixel: bindings 0 to 4 and the first constant of the passes that ask.
+// Reads a pixel's depth layers. Bindings 0 to 4 and the first constant of the passes that include this.
 #ifndef OBSCURA_SPANS_AT_GLSL
 #define OBSCURA_SPANS_AT_GLSL
 #include "ao/common/spans.glsl"
@@ -14,36 +14,37 @@ struct Packing {
     float sheet;    // thickness of open sheets, metres
     uint shift;     // 1: the second layer is of half size
 };
-layout(constant_id = 0) const uint kLayers = 2u;  // that there are, 1 or 2
+layout(constant_id = 0) const uint kLayerCount = 2u;  // 1 or 2
 
-// As stored: what is no solid is told apart by its sign. All is at least half a pixel thick.
-float lengthOf(float t, float sheetThick, float leastThick) {
-    return t <= 0.0 ? -max(sheetThick, leastThick) : t >= kEndless ? -kEndless : max(t, leastThick);
+// Length as packed: negative unless solid, at least half a pixel.
+float lengthOf(float t, float sheetLength, float leastLength) {
+    return t <= 0.0 ? -max(sheetLength, leastLength) : t >= kEndless ? -kEndless : max(t, leastLength);
 }
 
-Spans spansAt(View view, Packing packing, ivec2 p, out uint normal) {
+Layers layersOfPixel(View view, Packing packing, ivec2 p, out uint normal) {
     float z = imageLoad(depth, p).x;
-    float leastThick = 0.5 / view.pixelsPerMetre * (view.orthographic > 0.5 ? 1.0 : z);
-    // A sheet is longer where the ray grazes it. Of the second surface only the depth is known.
+    float leastLength = 0.5 / view.pixelsPerMetre * (view.orthographic > 0.5 ? 1.0 : z);
+    // A sheet is longer along a grazing ray. The second surface has no normal, so its length is not corrected.
     normal = imageLoad(normals, p).x;
     vec3 position = eyePosition(view, vec2(p) + 0.5, z);
     float slant = 1.0 / max(abs(dot(unpackNormal(normal), towardsEye(view, position))), 0.05);
     float t = texelFetch(thickness, p, 0).x;
-    Spans result = Spans(z, lengthOf(t, packing.sheet * slant, leastThick), 0.0, 1.0);
-    if (kLayers > 1u) {
-        ivec2 chosen = p >> int(packing.shift);
-        vec2 found = texelFetch(second, chosen, 0).xy;
+    Layers result = Layers(z, lengthOf(t, packing.sheet * slant, leastLength), 0.0, 1.0);
+    if (kLayerCount > 1u) {
+        ivec2 texel = p >> int(packing.shift);
+        vec2 next = texelFetch(second, texel, 0).xy;
         float end = z + (t < kEndless ? t : 1e30);
         if (packing.shift != 0u) {
-            // The pixel that was asked sees past an edge what is hidden here: then its own surface comes next.
-            ivec2 q = chosen << 1;
+            // Pixel q, of which the half-size layer is a copy, may see past an edge: if q's first surface is behind this layer, it is the
+            // second.
+            ivec2 q = texel << 1;
             float zq = imageLoad(depth, q).x;
-            found = zq > end ? vec2(isSky(view, zq) ? 0.0 : zq, texelFetch(thickness, q, 0).x) : found;
-            found.x = found.x + max(found.y, packing.sheet) > end && found.x > 0.0 ? max(found.x, end) : 0.0;
+            next = zq > end ? vec2(isSky(view, zq) ? 0.0 : zq, texelFetch(thickness, q, 0).x) : next;
+            next.x = next.x + max(next.y, packing.sheet) > end && next.x > 0.0 ? max(next.x, end) : 0.0;
         }
-        if (found.x > z && !isSky(view, z)) {
-            result.second = found.x;
-            result.secondLength = lengthOf(found.y, packing.sheet, leastThick);
+        if (next.x > z && !isSky(view, z)) {
+            result.second = next.x;
+            result.secondLength = lengthOf(next.y, packing.sheet, leastLength);
         }
     }
     return result;

@@ -1,5 +1,5 @@
-// One span of matter a pixel, as spans.glsl describes it.
+// Packs the first depth layer per pixel; layout: spans.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define ONE_SPAN
+#define ONE_LAYER
 #include "ao/common/pack_spans.glsl"

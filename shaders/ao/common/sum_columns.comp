@@ -5,7 +5,7 @@ const uint kScanLines = 8u, kScanMost = 16u;
 layout(local_size_x = 8, local_size_y = 16) in;
 layout(set = 0, binding = 0, std430) buffer Table { uvec4 table[]; };
 layout(push_constant) uniform Constants {
-    uint columns;  // of the table, layers included
+    uint columns;  // of the table, times layers
     uint rows;     // of texels
 };
 
@@ -16,7 +16,7 @@ void scanStore(uint line, uint i, uvec4 sum) { table[(i + 1u) * columns + line] 
 
 void main() {
     uint line = gl_GlobalInvocationID.x;
-    bool live = line < columns;
-    if (live && gl_LocalInvocationID.y == 0u) table[line] = uvec4(0u);
-    scanLines(line, rows, live);
+    bool inside = line < columns;
+    if (inside && gl_LocalInvocationID.y == 0u) table[line] = uvec4(0u);
+    scanLines(line, rows, inside);
 }

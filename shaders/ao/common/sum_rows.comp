@@ -29,7 +29,7 @@ void scanStore(uint line, uint i, uvec4 sum) {
 
 void main() {
     uint line = gl_GlobalInvocationID.x;
-    bool live = line < size.y;
-    if (live && gl_LocalInvocationID.y == 0u) table[(line + 1u) * (size.x + 1u) * layers + layer()] = uvec4(0u);
-    scanLines(line, size.x, live);
+    bool inside = line < size.y;
+    if (inside && gl_LocalInvocationID.y == 0u) table[(line + 1u) * (size.x + 1u) * layers + layer()] = uvec4(0u);
+    scanLines(line, size.x, inside);
 }

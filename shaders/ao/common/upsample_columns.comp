@@ -1,5 +1,5 @@
 // Joint bilateral upsampling along the columns, from every `scale`th row to all of them. See runtime/ao/upsample.h.
-// In: visibility of those rows, linear depth, packed normals; what it joins. Out: visibility, visible size.
+// In: visibility of those rows, linear depth, packed normals, `other`. Out: visibility, visible size.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "upsample.glsl"
@@ -13,11 +13,11 @@ layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
 layout(set = 0, binding = 4, r16f) uniform readonly image2D other;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D result;
 layout(push_constant) uniform Constants {
-    int scale;         // pixels between two of the source's rows
-    float window;      // m, px
-    float range;       // metres beyond which positions share nothing
+    int scale;         // px between two rows of the source
+    float window;      // width of the filter, px
+    float range;       // metres; points farther apart are not averaged
 };
-layout(constant_id = 0) const uint joins = 0;  // 1: what is blocked here is taken from `other`, visible size
+layout(constant_id = 0) const uint joins = 0;  // 1: the obscurance is subtracted from `other`, visible size
 
 void main() {
     View view = viewBlock;

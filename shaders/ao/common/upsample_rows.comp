@@ -13,9 +13,9 @@ layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D receivers;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D result;
 layout(push_constant) uniform Constants {
-    int scale;         // pixels a map's pixel
-    float window;      // m, px
-    float range;       // metres beyond which positions share nothing
+    int scale;         // image pixels per map pixel
+    float window;      // width of the filter, px
+    float range;       // metres; points farther apart are not averaged
 };
 
 void main() {

@@ -1,4 +1,4 @@
-// 5x5 box over neighbours whose visibility differs little: hides the grain where near and far field meet [Timonen 2013, sec. 10].
+// 5x5 mean of neighbours with similar visibility; removes the noise where near and far field meet [Timonen 2013, sec. 10].
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;

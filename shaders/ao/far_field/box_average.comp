@@ -1,5 +1,5 @@
-// Box average: depth and normal of those neighbours in the tile around that lie on the same surface [Timonen 2013, sec. 10]. Each of them
-// evaluates other sectors, from this average instead of its own position, so that their parts fit together. The window is the gather's.
+// Box average of depth and normal over the neighbours on the same surface [Timonen 2013, sec. 10]. Interleaved pixels evaluate different
+// sectors from this average instead of their own position, so that their shares are consistent. The window is gather.glsl's.
 // In: linear depth, packed normals. Out: packed normal and depth.
 #version 460
 #extension GL_GOOGLE_include_directive : require

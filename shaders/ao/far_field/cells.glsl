@@ -1,5 +1,5 @@
-// The cells of all directions, numbered through, as texels of an image: faster to fetch than a buffer's words, and four words at once. Each is a
-// point in two halves, or with SUMS a prefix sum (m0, m1, 1). Define CELLS_BINDING and CELLS_ACCESS (readonly, writeonly) first.
+// Cells of all directions, consecutive texels of an image, which is faster to read than a buffer. A cell is a point as two halves or, with
+// SUMS, a prefix sum (m0, m1, 1). Define CELLS_BINDING and CELLS_ACCESS (readonly, writeonly) first.
 #ifndef OBSCURA_FAR_FIELD_CELLS_GLSL
 #define OBSCURA_FAR_FIELD_CELLS_GLSL
 #include "ao/far_field/layout.h"

@@ -1,10 +1,11 @@
-// Far obscurance of the sectors that are this pixel's: share g of the tile's n^2 is g, g + n^2, g + 2 n^2 ... [Timonen 2013, sec. 10].
-// In: linear depth, averaged surfaces, directions, cells, the falloff's table. Out: far obscurance times sector widths, and these.
+// Far-field obscurance of this pixel's share of the sectors: share g has the directions g, g + n^2, g + 2 n^2 ... [Timonen 2013, sec. 10].
+// In: linear depth, averaged surfaces, directions, cells, the falloff's table. Out: (obscurance times sector widths, sector widths),
+// summed.
 #include "ao/common/tile.glsl"
 const uint kThin = 0u;
 #include "ao/far_field/sectors.glsl"
 layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D surfaces;
-layout(set = 0, binding = 6, rg16f) uniform writeonly image2D parts;
+layout(set = 0, binding = 6, rg16f) uniform writeonly image2D shares;
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
@@ -19,5 +20,5 @@ void main() {
         Turn turn = turnOf(c);
         for (uint k = shareOf(view, p, c.side); k < c.directions; k += c.side * c.side) sum += sectorOf(r, k, c, turn, view.skyDepth);
     }
-    imageStore(parts, p, vec4(2.0 * sum.x, sum.y, 0.0, 0.0));
+    imageStore(shares, p, vec4(2.0 * sum.x, sum.y, 0.0, 0.0));
 }

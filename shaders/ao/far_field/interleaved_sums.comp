@@ -1,4 +1,4 @@
-// Interleaved obscurance, with cells that are prefix sums.
+// Interleaved far-field obscurance; cells are prefix sums.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SUMS

@@ -1,4 +1,4 @@
-// Obscurance, with cells that are points.
+// Obscurance; cells are points.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "obscurance.glsl"

@@ -19,7 +19,7 @@ void main() {
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
     Turn turn = jittered(turnOf(c), view, texel, c);
     vec2 sum = vec2(0.0);
-    for (uint k = 0u;;) {  // ends with its test, see sectors.glsl
+    for (uint k = 0u;;) {  // post-tested, see sectors.glsl
         sum += sectorOf(r, k, c, turn, view.skyDepth);
         if ((k += c.stride) >= c.directions) break;
     }

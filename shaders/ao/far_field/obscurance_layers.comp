@@ -1,5 +1,6 @@
-// Obscurance of a background and of things before it: every sector of a pixel, near and far [Timonen 2013, alg. 2].
-// In: the background's linear depth, packed normals, directions, cells, the falloff's table, things and their cells, linear depth. Out: visibility.
+// Obscurance from a background and objects in front of it: every sector of a pixel, near and far field [Timonen 2013, alg. 2].
+// In: linear depth of the background, packed normals, directions, cells, the falloff's table, objects and their cells, linear depth.
+// Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 const uint kThin = 0u;
@@ -8,28 +9,28 @@ const uint kThin = 0u;
 #include "ao/far_field/things_met.glsl"
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
-layout(set = 0, binding = 7, rg32ui) uniform readonly uimage2D things;
-layout(set = 0, binding = 8, rg32ui) uniform readonly uimage2D thingCells;
+layout(set = 0, binding = 7, rg32ui) uniform readonly uimage2D objects;
+layout(set = 0, binding = 8, rg32ui) uniform readonly uimage2D objectCells;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D surfaces;
 
-// What a thing fills of a stretch along a segment: the highest corner of its front, of any length, what to divide that by to have metres, and what is
-// needed to know the lowest one of its back.
+// An object over an interval along a segment: the highest corner of its front (high / over, metres) and the data for the lowest corner of
+// its back.
 struct Arc {
     vec2 high;
     float over;
-    vec2 ends, fronts;  // of the stretch: pixels from the receiver, 1 / depth
-    float ratio;        // of the depths of front and back
+    vec2 ends, fronts;  // of the interval: pixels from the receiver, 1 / depth of the front
+    float ratio;        // depth of the front / depth of the back
     float opacity;
-    bool is;
+    bool valid;
 };
 vec2 cornerAt(Segment s, float away, float inverse) { return seenAt(s, (s.scale.x + s.scale.y * inverse) * away, 1.0, inverse); }
-// `thing` as unpackThing() has it, its gain that over the whole stretch: what covers a part of it slants over that part.
-Arc arcOf(Segment s, Horizon h, vec4 thing, float perUnit, vec2 ends) {
-    float front = thing.x / max(thing.z, 1e-6) * perUnit, bend = clamp(0.5 * thing.w * perUnit, -0.8 * front, 0.8 * front);
+// object: as unpackObject() returns it, its gain that over the whole interval, in proportion to coverage.
+Arc arcOf(Segment s, Horizon h, vec4 object, float perUnit, vec2 ends) {
+    float front = object.x / max(object.z, 1e-6) * perUnit, bend = clamp(0.5 * object.w * perUnit, -0.8 * front, 0.8 * front);
     vec2 fronts = vec2(front - bend, front + bend), first = cornerAt(s, ends.x, fronts.x), last = cornerAt(s, ends.y, fronts.y);
     bool atEnd = first.x * last.y > first.y * last.x;
     vec2 high = atEnd ? last : first;
-    return Arc(high, atEnd ? fronts.y : fronts.x, ends, fronts, thing.y / max(thing.x, 1e-12), min(thing.z, 1.0), thing.z > 0.004 && raises(h, high));
+    return Arc(high, atEnd ? fronts.y : fronts.x, ends, fronts, object.y / max(object.x, 1e-12), min(object.z, 1.0), object.z > 0.004 && raises(h, high));
 }
 vec2 lowestOf(Segment s, Arc arc) {  // metres
     vec2 backs = arc.fronts * arc.ratio, first = cornerAt(s, arc.ends.x, backs.x), last = cornerAt(s, arc.ends.y, backs.y);
@@ -37,27 +38,28 @@ vec2 lowestOf(Segment s, Arc arc) {  // metres
     return (atEnd ? last : first) / max(atEnd ? backs.y : backs.x, 1e-12);
 }
 
-// The line below a point of the background, see raise().
+// The line below a background point, see raise().
 vec2 lineBelow(vec2 slab, vec2 before, float connection) {
     float longer = sqrt(max(dot(slab, slab), 1e-30) / max(dot(before, before), 1e-30));
     return slab * (1.0 - connection) + before * (connection * longer);
 }
 
-// Sample i of the near field, (i + 0.6)^1.5 times `first` pixels away; its thing stands for a stretch around.
+// Sample i of the near field, at (i + 0.6)^1.5 times `first` pixels; its object stands for the interval around it.
 void nearest(Segment s, Receiver r, Place at, Horizon h, uint i, float first, float skyDepth, out Found found, out Arc arc) {
     vec3 t = float(i) + vec3(0.0, 0.6, 1.0);
     t = max(first * t * sqrt(t), vec3(0.5, 0.7, 1.0));
     ivec2 texel = clamp(ivec2(r.pixel + t.y * s.along), ivec2(0), ivec2(r.size) - 1);
     float z = imageLoad(depth, texel).x;
-    uvec2 thing = imageLoad(things, texel).xy;
-    vec2 point = pointAt(s, z, t.y), spans = unpackHalf2x16(thing.x), growth = unpackHalf2x16(thing.y);
+    uvec2 object = imageLoad(objects, texel).xy;
+    vec2 point = pointAt(s, z, t.y), layer = unpackHalf2x16(object.x), growth = unpackHalf2x16(object.y);
     bool inside = t.y < s.exit;
     found = Found(point, 1.0, inside && z < skyDepth && raises(h, point));
-    spans *= 1.0 + clamp(dot(growth, r.pixel + 0.5 * (t.x + t.z) * s.along - (vec2(texel) + 0.5)) / max(spans.x, 1e-6), -0.8, 0.8);  // from the texel's middle to the stretch's
-    arc = arcOf(s, h, vec4(spans, inside && thing.x != 0u ? 1.0 : 0.0, dot(growth, s.along) * (t.z - t.x)), at.perUnit, t.xz);
+    // From the middle of the texel to that of the interval.
+    layer *= 1.0 + clamp(dot(growth, r.pixel + 0.5 * (t.x + t.z) * s.along - (vec2(texel) + 0.5)) / max(layer.x, 1e-6), -0.8, 0.8);
+    arc = arcOf(s, h, vec4(layer, inside && object.x != 0u ? 1.0 : 0.0, dot(growth, s.along) * (t.z - t.x)), at.perUnit, t.xz);
 }
 
-// As farPoint(), and the things of the interval. `kept`: the direction whose things serve this one too, `opposite` or the same.
+// As farPoint(), and the objects of the interval. kept: the direction whose object cells are stored: this one, or its opposite.
 void next(Segment s, Place at, FarFieldConstants c, Horizon h, Direction kept, bool opposite, float low, float high, inout uint j, out Found found, out Arc arc) {
     float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
     uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u), jn = j >> n;
@@ -69,9 +71,9 @@ void next(Segment s, Place at, FarFieldConstants c, Horizon h, Direction kept, b
     float line = clamp((at.line + 0.5 * (low + high) * away) * uintBitsToFloat((127u - n) << 23u) - 0.5, 0.0, float(lines - 1u));
     line = opposite ? float(lines - 1u) - line : line;
     uint l = min(uint(line), lines - 2u), row = levelBase(kept, n, kPyramid) + (opposite ? (at.d.intervals >> n) - 1u - jn : jn) * lines;
-    vec4 thing = mix(unpackThing(imageLoad(thingCells, texelOf(row + l)).xy), unpackThing(imageLoad(thingCells, texelOf(row + l + 1u)).xy), line - float(l));
-    thing.w *= opposite ? -float(1u << n) : float(1u << n);
-    arc = arcOf(s, h, thing, at.perUnit, away + vec2(-0.5, 0.5) * width);
+    vec4 object = mix(unpackObject(imageLoad(objectCells, texelOf(row + l)).xy), unpackObject(imageLoad(objectCells, texelOf(row + l + 1u)).xy), line - float(l));
+    object.w *= opposite ? -float(1u << n) : float(1u << n);
+    arc = arcOf(s, h, object, at.perUnit, away + vec2(-0.5, 0.5) * width);
     j += 1u << n;
 }
 
@@ -91,32 +93,32 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
         Found found = Found(vec2(0.0), 0.0, false), before = found;
         Arc arc = Arc(vec2(0.0), 1.0, vec2(0.0), vec2(1.0), 1.0, 0.0, false);
         bool isFar = false;
-        while (true) {  // as sectorOf(): what counts is searched for, then met: things, then the background
-            if (!found.is) {
+        while (true) {  // as sectorOf(): search for the next point or object that counts, then add it, objects first
+            if (!found.valid) {
                 isFar = i >= c.taps;
                 if (!isFar) {
                     while (true) {
                         before = found;
                         nearest(s, r, at, open.horizon, i++, first, skyDepth, found, arc);
-                        if (found.is || arc.is || i >= c.taps) break;
+                        if (found.valid || arc.valid || i >= c.taps) break;
                     }
-                    isFar = !found.is && !arc.is;
+                    isFar = !found.valid && !arc.valid;
                 }
                 if (isFar && j < end) {
                     while (true) {
                         before = found;
                         next(s, at, c, open.horizon, kept, opposite, low, low + step, j, found, arc);
-                        if (found.is || arc.is || j >= end) break;
+                        if (found.valid || arc.valid || j >= end) break;
                     }
                 }
             }
-            bool thing = arc.is;
-            vec2 point = thing ? arc.high / arc.over : found.to / max(found.over, 1e-12), n = s.n * (isFar ? 1.0 : share);
-            vec2 line = thing ? lowestOf(s, arc) - point : lineBelow(slabAt(s, point), before.to / max(before.over, 1e-12) - point, before.over > 0.0 ? c.connection * open.horizon.follows : 0.0);
-            meet(open, point, line, thing, thing ? arc.opacity : 1.0, thing || (found.is && raises(open.horizon, found.to)), n, c.unit);
-            found.is = found.is && thing;
-            arc.is = false;
-            if (!found.is && i >= c.taps && j >= end) break;
+            bool object = arc.valid;
+            vec2 point = object ? arc.high / arc.over : found.to / max(found.over, 1e-12), n = s.n * (isFar ? 1.0 : share);
+            vec2 line = object ? lowestOf(s, arc) - point : lineBelow(slabAt(s, point), before.to / max(before.over, 1e-12) - point, before.over > 0.0 ? c.connection * open.horizon.connected : 0.0);
+            addOccluder(open, point, line, object, object ? arc.opacity : 1.0, object || (found.valid && raises(open.horizon, found.to)), n, c.unit);
+            found.valid = found.valid && object;
+            arc.valid = false;
+            if (!found.valid && i >= c.taps && j >= end) break;
         }
         sum += s.weight * vec2(open.horizon.blocked, 1.0);
         low += step;
@@ -140,7 +142,7 @@ void main() {
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
     Turn turn = jittered(turnOf(c), view, texel, c);
     vec2 sum = vec2(0.0);
-    for (uint k = 0u;;) {  // ends with its test, see sectors.glsl
+    for (uint k = 0u;;) {  // post-tested, see sectors.glsl
         sum += layeredSectorOf(r, k, c, turn, view.skyDepth);
         if ((k += c.stride) >= c.directions) break;
     }

@@ -1,4 +1,4 @@
-// Obscurance, with cells that are prefix sums.
+// Obscurance; cells are prefix sums.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SUMS

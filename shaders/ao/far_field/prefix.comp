@@ -1,5 +1,5 @@
-// Prefix sums over lines, in place: one invocation an interval index [Timonen 2013, sec. 7]. Cells hold (m0, m1, 1), or zeros where there is
-// nothing, so any run of lines has its mean and its count by one subtraction.
+// Prefix sums over lines, in place, one invocation per interval index [Timonen 2013, sec. 7]. Cells are (m0, m1, 1), or zeros if empty, so
+// one subtraction gives mean and count of any range of lines.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/far_field/grid.glsl"

@@ -1,5 +1,5 @@
-// Lateral pyramid: a cell of level n is the mean over 2^n lines of the maximum over 2^n intervals, so a sector's width is one or two cells at
-// any distance and prefix sums are not needed. One invocation makes three levels of an 8x8 block of cells of level `from`.
+// Lateral pyramid: a cell of level n is the mean over 2^n lines of the maximum over 2^n intervals, so that a sector is one or two cells
+// wide at any distance. One invocation computes three levels from an 8x8 block of cells of level `from`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/far_field/grid.glsl"
@@ -24,17 +24,17 @@ void main() {
     Axis axis = axisOf(view, d.along);
     float width = c.interval * float(1u << from);
     uint above = min(3u, c.levels - 1u - from);
-    uint side = 1u << above;  // cells of a block when fewer than three levels are left
+    uint side = 1u << above;  // cells of a block; 8 unless fewer than three levels are left
     block *= 8u;
-    for (uint part = 0u; part < 64u >> (2u * above); ++part) {
-        uvec2 corner = block + uvec2(part % (8u / side), part / (8u / side)) * side;
+    for (uint subBlock = 0u; subBlock < 64u >> (2u * above); ++subBlock) {
+        uvec2 corner = block + uvec2(subBlock % (8u / side), subBlock / (8u / side)) * side;
         if (corner.x >= lines || corner.y >= intervals) continue;
         vec2 mean1[4], mean2[2], mean3 = vec2(0.0);
         for (uint l = 0u; l < side; ++l) {
             uint line = corner.x + l;
-            vec2 best1[4], best2[2], best3 = vec2(kNothing);
-            for (uint i = 0u; i < 4u; ++i) best1[i] = vec2(kNothing);
-            for (uint i = 0u; i < 2u; ++i) best2[i] = vec2(kNothing);
+            vec2 best1[4], best2[2], best3 = vec2(kEmptyHeight);
+            for (uint i = 0u; i < 4u; ++i) best1[i] = vec2(kEmptyHeight);
+            for (uint i = 0u; i < 2u; ++i) best2[i] = vec2(kEmptyHeight);
             for (uint i = 0u; i < side; ++i) {
                 uint j = corner.y + i;
                 vec2 point = unpackHalf2x16(imageLoad(cells, texelOf(levelBase(d, from, kPyramid) + j * lines + line)).x);

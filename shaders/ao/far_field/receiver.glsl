@@ -1,15 +1,15 @@
-// A pixel as receiver, and the plane of one segment of a sector through it. A point of depth D seen r pixels along the direction from
-// the receiver lies in that plane at
+// Receivers, and the plane of one segment of a sector through a receiver. A point of depth D, r pixels along the direction from the
+// receiver, is in that plane at
 //     u = scale(D) r du,   z = D (z0 + r dz)
-// from the camera, whichever the scan, the near field or a mipmap found the depth in.
+// relative to the camera, for depths from scans, the near field or a mipmap.
 #ifndef OBSCURA_FAR_FIELD_RECEIVER_GLSL
 #define OBSCURA_FAR_FIELD_RECEIVER_GLSL
 #include "ao/far_field/table.glsl"
 #include "shared/view.h"
 
 struct Receiver {
-    vec3 p;        // a pixel's footprint above the surface, so that slanted planes do not shadow themselves
-    vec2 pixel;    // where p is seen; samples start from there
+    vec3 p;        // raised above the surface by one pixel's footprint, so that slanted planes do not shadow themselves
+    vec2 pixel;    // projection of p; samples start there
     vec3 n, zenith;
     float nz;      // n.zenith
     float z0;
@@ -27,16 +27,17 @@ Receiver receiverAt(View view, ivec2 texel, float depth, vec3 n) {
 }
 
 struct Segment {
-    vec2 along;        // on the screen, as long as a pixel along the sector's direction
+    vec2 along;        // step on the screen that is one pixel along the sector's direction
     float du, z0, dz;
     float origin;      // the receiver's z in the plane; its u is 0
     vec2 n;            // projected normal (u, z), not normalised
-    float start;       // cosine of the zenith angle at which the tangent plane begins
+    float start;       // cosine of the zenith angle of the tangent plane
     float weight;      // angle around the zenith [eq. 2: w_k]
-    float exit;        // pixels along the direction to the picture's edge
+    float exit;        // pixels along the direction to the edge of the image
     vec2 scale;
 };
-// `along`, unit, times `stretch` is a step of one pixel along the sector's direction. `width`: cosine and sine of half the segment's width.
+// along * stretch, along of unit length, is a step of one pixel along the sector's direction. width: cosine and sine of half the segment's
+// width.
 Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     Segment s;
     vec2 g = along * r.unproject;
@@ -50,19 +51,18 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     s.dz = g2 * perStep * ez * stretch * r.scale.x;
     s.n = vec2((dot(r.n.xy, e) - ez * r.nz) * inverse, r.nz);
     s.start = -s.n.x * inversesqrt(max(dot(s.n, s.n), 1e-20));
-    // Azimuths differ by the angle between the projections of the segment's two sides onto the plane across the zenith.
+    // Width in azimuth: the angle between the segment's two sides projected onto the plane perpendicular to the zenith.
     s.weight = arcTangent(2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
-    vec2 room = mix(r.pixel, r.size - r.pixel, greaterThan(along, vec2(0.0))) / max(abs(along), vec2(1e-6));
-    s.exit = min(room.x, room.y) / stretch;
+    vec2 space = mix(r.pixel, r.size - r.pixel, greaterThan(along, vec2(0.0))) / max(abs(along), vec2(1e-6));
+    s.exit = min(space.x, space.y) / stretch;
     s.scale = r.scale;
     return s;
 }
-// From the receiver. `across`: metres along the sector's direction, parallel to the picture, from the receiver's line of sight at that depth,
-// in pixels' units: r pixels away it is (depth * scale.x + scale.y) r. Linear in all three, so any multiple of them, with `over` how many
-// times, gives the point's direction without a division.
+// Vector from the receiver to a point r pixels away: across = (depth * scale.x + scale.y) r, over = 1. The result is linear in across,
+// depth and over, so `over` times all of them gives `over` times the vector, whose direction needs no division.
 vec2 seenAt(Segment s, float across, float depth, float over) { return vec2(across * s.du, depth * s.z0 + across * s.dz - over * s.origin); }
 vec2 pointAt(Segment s, float depth, float r) { return seenAt(s, (depth * s.scale.x + s.scale.y) * r, depth, 1.0); }
-// The direction away from the camera at such a point, any length.
+// Direction away from the camera at such a point, not normalised.
 vec2 slabAt(Segment s, vec2 point) { return vec2(point.x * s.scale.x, point.y + s.origin); }
 
 #endif

@@ -1,4 +1,4 @@
-// Scan, with cells that are points.
+// Scan; cells are points.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scan.glsl"

@@ -1,6 +1,6 @@
-// Scan: every interval of every line, both ways along it [Timonen 2013, alg. 1]. Intervals do not depend on each other, so one invocation
-// does one interval (averaging by pyramid) or, with the maxima of all levels above, a run of 2^(levels - 1) of them.
-// In: linear depth, directions. Out: cells, as points; with SUMS as heights and 1, to count lines.
+// Scan: heights of every interval of every line, in both directions along it [Timonen 2013, alg. 1]. Intervals are independent: an
+// invocation handles one interval (pyramid) or a run of 2^(levels - 1), whose maxima of all levels it computes.
+// In: linear depth, directions. Out: cells, as points; with SUMS as (m0, m1, 1).
 #include "ao/far_field/grid.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
@@ -13,9 +13,9 @@ layout(push_constant) uniform Constants { FarFieldConstants constants; };
 
 const uint kMaxLevels = 8u;
 
-// Heights along `d` (xy) and along its opposite (xz) over `steps` pixels from `first`, seen from the picture's centre.
-vec3 walk(View view, Direction d, Axis axis, FarFieldConstants c, float line, float first, uint steps) {
-    vec3 heights = vec3(kNothing);
+// Heights along `d` (xy) and along its opposite (xz) over `steps` pixels from `first`; pixels from the image centre.
+vec3 scanInterval(View view, Direction d, Axis axis, FarFieldConstants c, float line, float first, uint steps) {
+    vec3 heights = vec3(kEmptyHeight);
     vec2 at = vec2(view.size) * 0.5 + d.along * first + vec2(-d.along.y, d.along.x) * line;
     float x = axis.from + first * axis.step;
     ivec2 last = ivec2(view.size) - 1;
@@ -35,7 +35,7 @@ vec3 walk(View view, Direction d, Axis axis, FarFieldConstants c, float line, fl
 void store(Direction d, Axis axis, FarFieldConstants c, uint level, uint line, uint j, vec2 heights) {
     ivec2 at = texelOf(levelBase(d, level, kAveraging) + j * d.lines + line);
 #ifdef SUMS
-    imageStore(cells, at, heights.x == kNothing ? vec4(0.0) : vec4(heights, 1.0, 0.0));
+    imageStore(cells, at, heights.x == kEmptyHeight ? vec4(0.0) : vec4(heights, 1.0, 0.0));
 #else
     imageStore(cells, at, uvec4(packPoint(pointOf(axis, c, heights, middleOf(d, c.interval * float(1u << level), j)))));
 #endif
@@ -55,8 +55,8 @@ void main() {
     uint steps = uint(c.interval), lineBack = d.lines - 1u - line;
     vec3 pending[kMaxLevels];
     for (uint i = 0u; i < run; ++i) {
-        vec3 heights = walk(view, d, axis, c, across, middleOf(d, c.interval, first + i) - 0.5 * c.interval + 0.5, steps);
-        for (uint n = 0u; n < c.levels; ++n) {  // a maximum goes up when its partner is there
+        vec3 heights = scanInterval(view, d, axis, c, across, middleOf(d, c.interval, first + i) - 0.5 * c.interval + 0.5, steps);
+        for (uint n = 0u; n < c.levels; ++n) {  // two maxima combine into one of the next level
             uint j = (first + i) >> n;
             store(d, axis, c, n, line, j, heights.xy);
             if (c.paired != 0u) store(back, backAxis, c, n, lineBack, (d.intervals >> n) - 1u - j, heights.xz);

@@ -1,4 +1,4 @@
-// Scan, with cells that are prefix sums.
+// Scan; cells are prefix sums.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SUMS

@@ -1,5 +1,5 @@
-// One segment of a sector: the near field, texel by texel, then intervals of growing length to the picture's edge; and the bindings of the
-// passes that walk them, but for their receivers (2) and results (6). Include after declaring kThin.
+// Evaluation of a sector, segment by segment: near-field texels, then intervals of growing length to the edge of the image. Also the
+// bindings of its passes, except for receivers (2) and results (6). Include after declaring kThin.
 #ifndef OBSCURA_FAR_FIELD_SECTORS_GLSL
 #define OBSCURA_FAR_FIELD_SECTORS_GLSL
 #include "ao/far_field/layout.h"
@@ -19,14 +19,14 @@ layout(push_constant) uniform Constants { FarFieldConstants constants; };
 #include "ao/far_field/receiver.glsl"
 #include "ao/far_field/thin.glsl"
 
-// From a sector's middle to its first segment, from segment to segment, half a segment: cosine and sine.
+// Rotations (cosine and sine) from a sector's middle to its first segment, from segment to segment, and by half a segment.
 struct Turn {
     vec2 first, next, side;
     float slope;  // of a sector's sides, lines per pixel of distance
-    float shift;  // of all lines by jitter, the same
+    float shift;  // of all segments by jitter, lines per pixel of distance
 };
-// All of a pixel's segments turned by one random angle [Timonen 2013, sec. 11.1], or to and fro on a checkerboard: what a finite number of
-// directions leaves as bands then alternates from pixel to pixel: finer, and weak but right beside tall things.
+// Turns all segments of a pixel by one random angle [Timonen 2013, sec. 11.1], or by a quarter segment with alternating sign on a
+// checkerboard: the bands of a finite number of directions then alternate from pixel to pixel and are visible only beside tall objects.
 Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
     float halfWidth = kPi / float(c.directions * c.segments), quarter = ((texel.x + texel.y) & 1) == 0 ? 0.5 * halfWidth : -0.5 * halfWidth;
     vec2 by = c.alternate != 0u ? vec2(cos(quarter), sin(quarter)) : jitterAt(view, texel, halfWidth, c.jitter);
@@ -39,14 +39,14 @@ Turn turnOf(FarFieldConstants c) {
     return Turn(vec2(cos(segment - sector), sin(segment - sector)), vec2(cos(2.0 * segment), sin(2.0 * segment)), vec2(cos(segment), sin(segment)), slope, 0.0);
 }
 
-// Where a receiver stands in a direction's grid.
+// Position of a receiver in a direction's grid.
 struct Place {
     Direction d;
     float along;  // pixels from the grid's first interval
     float line;   // lines from its first
-    uint first;   // interval: at least B0 pixels away [alg. 2]
+    uint first;   // first interval, at least B0 pixels away [alg. 2]
     float perUnit;            // 1 / c.unit
-    float perHeight, offset;  // of heights: pixels at depth 1 for a metre of m0 - m1, and from the receiver to the picture's middle
+    float perHeight, offset;  // of heights: pixels at depth 1 per metre of m0 - m1; pixels from the receiver to the image centre
 };
 Place placeOf(Direction d, Receiver r, FarFieldConstants c) {
     vec2 at = r.pixel - 0.5 * r.size;
@@ -55,23 +55,23 @@ Place placeOf(Direction d, Receiver r, FarFieldConstants c) {
     return Place(d, along, line, uint(ceil(along / c.interval)) + 1u, 1.0 / c.unit, 1.0 / (c.slope * axis.step), d.origin.x - along - axis.from / axis.step);
 }
 
-// What a segment has met so far: a horizon, or bins where surfaces are thin.
-struct Met {
+// Occlusion of a segment so far: a horizon or, with kThin, bins.
+struct Occlusion {
     Horizon horizon;
     Bins bins;
 };
-// Whether a point that exists may block anything; add() it if so.
-bool counts(Met met, vec2 to) { return kThin != 0u || raises(met.horizon, to); }
-float blockedOf(Met met) { return kThin != 0u ? met.bins.sum : met.horizon.blocked; }
+// Whether a point may block anything, and add() is needed.
+bool counts(Occlusion occlusion, vec2 to) { return kThin != 0u || raises(occlusion.horizon, to); }
+float blockedOf(Occlusion occlusion) { return kThin != 0u ? occlusion.bins.sum : occlusion.horizon.blocked; }
 
-// Interval j of level n between lines `from` and `to`: (across, depth, over) as seenAt() takes them; over is 0 where there is nothing.
+// Interval j of level n between lines `from` and `to`: (across, depth, over), the arguments of seenAt(); over is 0 if empty.
 vec3 cellAt(Place at, Segment s, FarFieldConstants c, uint n, uint j, float middle, float from, float to) {
     uint lines = kAveraging == kPyramid ? at.d.lines >> n : at.d.lines, row = levelBase(at.d, n, kAveraging) + j * lines;
     float last = float(lines - 1u);
 #ifdef SUMS
     uint l0 = uint(clamp(floor(from), 0.0, last)), l1 = uint(clamp(max(floor(to), floor(from) + 1.0) - 1.0, 0.0, last));
     vec3 sum = imageLoad(cells, texelOf(row + l1)).xyz, before = imageLoad(cells, texelOf(row + max(l0, 1u) - 1u)).xyz;
-    sum -= l0 > 0u ? before : vec3(0.0);  // as many times m0, m1 and 1 as lines had something
+    sum -= l0 > 0u ? before : vec3(0.0);  // sums of m0, m1 and 1 over non-empty lines
     return vec3((sum.x - sum.y) * at.perHeight + (sum.z * s.scale.y - sum.x * s.scale.x) * at.offset, -sum.x, sum.z > 0.5 ? sum.z : 0.0);
 #else
     vec2 point;
@@ -87,32 +87,32 @@ vec3 cellAt(Place at, Segment s, FarFieldConstants c, uint n, uint j, float midd
 #endif
 }
 
-// A point of a segment: its direction from the receiver, of any length, what to divide that by to have it in metres, and whether it counts.
+// A point of a segment: vector from the receiver in metres = to / over; valid: it may block.
 struct Found {
     vec2 to;
     float over;
-    bool is;
+    bool valid;
 };
-// The connection to the point before, which need not be visible: surfaces between two visible points lie lower than the line between them. It may
-// also be none, or sky, which hides behind a slab.
-void add(inout Met met, Segment s, FarFieldConstants c, Found found, Found before, float share) {
+// The connection is to the previous point, visible or not, because surfaces between two visible points are lower than the line between
+// them. If that is missing or sky (over 0), the slab alone is used.
+void add(inout Occlusion occlusion, Segment s, FarFieldConstants c, Found found, Found before, float share) {
     vec2 point = found.to / max(found.over, 1e-12), slab = slabAt(s, point);
-    if (kThin != 0u) addSlab(met.bins, point, normalize(slab), c.thickness, found.is, s.n * share, c.unit);
-    else raise(met.horizon, point, slab, before.to / max(before.over, 1e-12), before.over > 0.0 ? c.connection : 0.0, found.is, s.n * share, c.unit);
+    if (kThin != 0u) addSlab(occlusion.bins, point, normalize(slab), c.thickness, found.valid, s.n * share, c.unit);
+    else raise(occlusion.horizon, point, slab, before.to / max(before.over, 1e-12), before.over > 0.0 ? c.connection : 0.0, found.valid, s.n * share, c.unit);
 }
 
-// Sample i of the near field, (i + 0.6)^1.5 times `first` pixels away: denser near the receiver.
-Found nearPoint(Met met, Segment s, Receiver r, uint i, float first, float skyDepth) {
+// Sample i of the near field, at (i + 0.6)^1.5 times `first` pixels: denser near the receiver.
+Found nearPoint(Occlusion occlusion, Segment s, Receiver r, uint i, float first, float skyDepth) {
     float t = float(i) + 0.6;
     t = max(first * t * sqrt(t), 0.7);
     float z = imageLoad(depth, clamp(ivec2(r.pixel + t * s.along), ivec2(0), ivec2(r.size) - 1)).x;
     vec2 point = pointAt(s, z, t);
-    return Found(point, 1.0, t < s.exit && z < skyDepth && counts(met, point));
+    return Found(point, 1.0, t < s.exit && z < skyDepth && counts(occlusion, point));
 }
 
-// Interval j or the longest that begins there, is aligned and not longer than its share of the distance; j goes on behind it. `low` and `high`: the
-// segment's sides, lines per pixel of distance.
-Found farPoint(Met met, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float skyDepth) {
+// The longest aligned interval that starts at j and is at most `longest` times its distance; j advances past it. low, high: the segment's
+// sides, lines per pixel of distance.
+Found farPoint(Occlusion occlusion, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float skyDepth) {
     float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
     uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
     float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
@@ -125,7 +125,7 @@ Found farPoint(Met met, Segment s, Receiver r, Place at, FarFieldConstants c, in
     }
     vec2 to = seenAt(s, cell.x, cell.y, cell.z);
     j += 1u << n;
-    return Found(to, cell.z, cell.z > 0.0 && counts(met, to));
+    return Found(to, cell.z, cell.z > 0.0 && counts(occlusion, to));
 }
 
 // Obscurance of direction k, not yet over pi, and the sector's width around the zenith.
@@ -136,33 +136,33 @@ vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth
     float nearest = (float(at.first) * c.interval - at.along) / max(taps * sqrt(taps), 1.0);
     for (uint segment = 0u;;) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
-        Met met = Met(horizonAt(s.start), binsBelow(s.start));
+        Occlusion occlusion = Occlusion(horizonAt(s.start), binsBelow(s.start));
         uint i = 0u, j = at.first, end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
-        float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of what the near field blocks; it raises the horizon in any case
-        // First to the next point that counts, then what it blocks: neighbouring pixels do either together. Loops end with their test: software
-        // rasterisers run the body of one that begins with it once more for nobody.
+        float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of near-field occlusion; its horizon rises anyway
+        // Search for the next point that counts, then add it, so that neighbouring pixels diverge less. Loops are post-tested: llvmpipe
+        // runs a pre-tested loop once more with every lane masked.
         Found found = Found(vec2(0.0), 0.0, false), before = found;
         while (true) {
             bool isFar = true;
             if (i < c.taps) {
                 while (true) {
                     before = found;
-                    found = nearPoint(met, s, r, i++, nearest, skyDepth);
-                    if (found.is || i >= c.taps) break;
+                    found = nearPoint(occlusion, s, r, i++, nearest, skyDepth);
+                    if (found.valid || i >= c.taps) break;
                 }
-                isFar = !found.is;
+                isFar = !found.valid;
             }
             if (isFar && j < end) {
                 while (true) {
                     before = found;
-                    found = farPoint(met, s, r, at, c, j, low, low + step, skyDepth);
-                    if (found.is || j >= end) break;
+                    found = farPoint(occlusion, s, r, at, c, j, low, low + step, skyDepth);
+                    if (found.valid || j >= end) break;
                 }
             }
-            add(met, s, c, found, before, isFar ? 1.0 : share);
+            add(occlusion, s, c, found, before, isFar ? 1.0 : share);
             if (i >= c.taps && j >= end) break;
         }
-        sum += s.weight * vec2(blockedOf(met), 1.0);
+        sum += s.weight * vec2(blockedOf(occlusion), 1.0);
         low += step;
         along = mat2(turn.next, vec2(-turn.next.y, turn.next.x)) * along;
         if (++segment >= c.segments) break;

@@ -1,6 +1,8 @@
-// The falloff's table, made when the falloff changes: integrals along a line at distance b from the receiver, from its far end to the angle phi,
+// The falloff's table, computed when the falloff changes: integrals along a line at distance b from the receiver, from its far end to angle
+// phi,
 //     A0, A1, A2 (phi, b) = integral from 0 to phi of rho(b / sin t) {1, cos 2t, sin 2t} dt
-// A texel holds each of them at its own phi and at the next one, as halves: one fetch serves a linear interpolation. An invocation makes a row.
+// A texel holds each of them at its own phi and at the next one, as halves, so that one fetch is enough for linear interpolation. One
+// invocation per row.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/far_field/table.glsl"

@@ -1,6 +1,6 @@
-// Surfaces of finite thickness: what stands behind a point ends there, so a single horizon no longer tells what is blocked. A sector's arc,
-// from the tangent plane up to the zenith, is cut into 32 bins; each point blocks the bins between its front and its back that nothing
-// before it did, and their runs are integrated by the table along the slab [the paper's sec. 11 keeps one angle and cannot converge].
+// Surfaces of finite thickness, for which a single horizon is not enough. The arc of a segment from the tangent plane to the zenith is cut
+// into 32 bins. Each point blocks the still open bins between its front and its back; runs of new bins are integrated by the table along
+// the slab [the paper's sec. 11 keeps one angle and does not converge].
 #ifndef OBSCURA_FAR_FIELD_THIN_GLSL
 #define OBSCURA_FAR_FIELD_THIN_GLSL
 #include "ao/far_field/estimator.glsl"
@@ -9,13 +9,13 @@
 struct Bins {
     uint blocked;
     float step;    // angle of a bin; bin i is centred at (i + 0.5) step from the zenith
-    float sum;     // what was gained, times |n_k|
+    float sum;     // integral of the blocked bins, times |n_k|
 };
 Bins binsBelow(float cosine) { return Bins(0u, arcCosine(cosine) / 32.0, 0.0); }
 
 float angleOf(vec2 v) { return arcCosine(v.y * inversesqrt(max(dot(v, v), 1e-30))); }
 
-// `point` from the receiver, `slab` unit, away from the camera; it ends after `thickness` metres.
+// point: from the receiver; slab: unit, away from the camera, of `thickness` metres.
 void addSlab(inout Bins h, vec2 point, vec2 slab, float thickness, bool exists, vec2 n, float unit) {
     exists = exists && point.x > 0.0;
     float front = angleOf(point), back = angleOf(point + slab * thickness);
@@ -36,8 +36,8 @@ void addSlab(inout Bins h, vec2 point, vec2 slab, float thickness, bool exists, 
     }
 }
 
-// A rotation of a pixel's directions within their sectors, all by the same, cosine and sine: interleaved gradient noise [Jimenez 2014], moved from
-// frame to frame when a history takes it out. `jitter`: how much of the sector of 2 halfWidth is used.
+// Rotation (cosine and sine) of all directions of a pixel, within +-halfWidth * jitter: interleaved gradient noise [Jimenez 2014], shifted
+// from frame to frame with temporal reprojection.
 vec2 jitterAt(View view, ivec2 texel, float halfWidth, float jitter) {
     float noise = fract(52.9829189 * fract(dot(vec2(texel), vec2(0.06711056, 0.00583715))) + frameShift(view).x);
     float angle = (2.0 * noise - 1.0) * halfWidth * jitter;

@@ -1,13 +1,13 @@
-// Means of things over the shortest intervals of every line, along one of each two opposite directions. Edges of the picture go on beyond it, or
-// walls would thin out there.
-// In: things as fields.comp writes them, directions. Out: cells of things.
+// Means of objects over the shortest intervals of every line, along one of each two opposite directions. Pixels outside the image repeat
+// its edge, so that walls do not fade there.
+// In: objects (fields.comp), directions. Out: cells of objects.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/far_field/grid.glsl"
 #include "ao/far_field/things.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
-layout(set = 0, binding = 1, rg32ui) uniform readonly uimage2D things;
+layout(set = 0, binding = 1, rg32ui) uniform readonly uimage2D objects;
 layout(set = 0, binding = 2, std430) readonly buffer Directions { Direction directionsOf[]; };
 layout(set = 0, binding = 3, rg32ui) uniform writeonly uimage2D cells;
 layout(push_constant) uniform Constants { FarFieldConstants constants; };
@@ -23,11 +23,11 @@ void main() {
     ivec2 last = ivec2(view.size) - 1;
     vec4 sum = vec4(0.0);
     for (uint i = 0u;;) {
-        uvec2 texel = imageLoad(things, clamp(ivec2(at), ivec2(0), last)).xy;
-        sum += vec4(unpackHalf2x16(texel.x), texel.x != 0u ? 1.0 : 0.0, dot(unpackHalf2x16(texel.y), d.along));  // zeros where there is none
+        uvec2 texel = imageLoad(objects, clamp(ivec2(at), ivec2(0), last)).xy;
+        sum += vec4(unpackHalf2x16(texel.x), texel.x != 0u ? 1.0 : 0.0, dot(unpackHalf2x16(texel.y), d.along));  // zeros without an object
         at += d.along;
         if (++i >= steps) break;
     }
-    sum.xyz /= c.interval;  // means, but for what the front gains along all of it
-    imageStore(cells, texelOf(levelBase(d, 0u, kPyramid) + j * d.lines + line), uvec4(packThing(sum), 0u, 0u));
+    sum.xyz /= c.interval;  // means; w stays the growth of the front over the interval
+    imageStore(cells, texelOf(levelBase(d, 0u, kPyramid) + j * d.lines + line), uvec4(packObject(sum), 0u, 0u));
 }

@@ -1,7 +1,7 @@
-// What things leave open of a segment. The background, and what stands on it without a gap, raises a horizon as ever (estimator.glsl); what floats
-// above it covers parts of the arc between zenith and tangent plane, cut into 32 bins, so that what comes later counts by the share of its arc that is
-// still open. What covers only a part takes so many of the bins, always the same of a segment: what follows behind is mostly the thing's own next
-// part, and pictures hold still.
+// Occlusion of a segment by background and objects. The background, and objects without a gap to it, raise a horizon (estimator.glsl).
+// Objects above a gap cover bins of the arc between zenith and tangent plane, of which there are 32; later occluders count by the open
+// fraction of their arc. An object of opacity below 1 covers that fraction of its bins, always the same ones in a segment, because the next
+// occluder is mostly the same object, and to avoid flicker.
 #ifndef OBSCURA_FAR_FIELD_THINGS_MET_GLSL
 #define OBSCURA_FAR_FIELD_THINGS_MET_GLSL
 #include "ao/far_field/estimator.glsl"
@@ -9,7 +9,7 @@
 struct Open {
     Horizon horizon;
     uint covered;
-    uint pattern;       // which bins are taken first: turns someOf()
+    uint pattern;       // selects the bins that evenBins() takes first
     float perBin;       // bins per radian from the zenith
 };
 Open openAt(float cosine, uint pattern) { return Open(horizonAt(cosine), 0u, pattern, 32.0 / arcCosine(cosine)); }
@@ -18,21 +18,21 @@ float freeBelow(uint covered, float place) {
     int i = int(place);
     return float(bitCount(~covered & (i > 31 ? ~0u : (1u << i) - 1u))) + fract(place) * float((~covered >> min(i, 31)) & 1u);
 }
-// So many eighths of all bins, evenly spread.
-uint someOf(float share, uint turn) {
+// Mask of `share` of all bins, in eighths, evenly spread; turn rotates it.
+uint evenBins(float share, uint turn) {
     uint eighths = uint(share * 8.0 + 0.5), by = 1u + (turn & 7u);
     uint pattern = (((eighths < 4u ? 0x49110100u : 0x7f776d55u) >> (8u * (eighths & 3u))) & 255u) * 0x01010101u;
     return eighths > 7u ? ~0u : pattern << by | pattern >> (32u - by);
 }
 
-// The arc from `point` down to where `line` ends, or to the horizon that is there, whichever is higher: as raise(), through what is open. A thing
-// (`opacity`, at most 1) without a gap to the horizon raises it if nothing is seen through it, so it is exact where bins are not.
-void meet(inout Open open, vec2 point, vec2 line, bool thing, float opacity, bool found, vec2 n, float unit) {
+// Adds the arc from `point` down to the end of `line` or to the horizon, whichever is higher, as raise() does, weighted by its open
+// fraction. An opaque object without a gap to the horizon raises the horizon, which is exact, instead of covering bins.
+void addOccluder(inout Open open, vec2 point, vec2 line, bool object, float opacity, bool found, vec2 n, float unit) {
     point.x = max(point.x, 1e-9);
     vec2 low = point + line;
     low.x = max(low.x, 1e-9);
     float inverse2 = 1.0 / max(dot(line, line), 1e-30), area = max(line.x * point.y - line.y * point.x, 0.0);
-    float angle = arcTangent(point.x, point.y), bottom = thing ? arcTangent(low.x, low.y) : kPi, end = min(bottom, open.horizon.angle);
+    float angle = arcTangent(point.x, point.y), bottom = object ? arcTangent(low.x, low.y) : kPi, end = min(bottom, open.horizon.angle);
     float phi2 = arcTangent(area, dot(line, point)), phi1 = max(phi2 - (end - angle), 0.0), b = area * sqrt(inverse2);
     vec3 a = tableDifference(min(phi1, phi2), phi2, b / (b + unit));
     vec2 twice = vec2(2.0 * line.x * line.y, line.y * line.y - line.x * line.x) * inverse2;
@@ -43,9 +43,9 @@ void meet(inout Open open, vec2 point, vec2 line, bool thing, float opacity, boo
     open.horizon.blocked += found ? opacity * through * gained : 0.0;
     bool raised = found && opacity > 0.97 && bottom > open.horizon.angle - 0.02;
     ivec2 bins = ivec2(place + 0.5);
-    open.covered |= found && !raised ? bitfieldInsert(0u, ~0u, bins.x, max(bins.y - bins.x, 0)) & someOf(opacity, open.pattern) : 0u;
+    open.covered |= found && !raised ? bitfieldInsert(0u, ~0u, bins.x, max(bins.y - bins.x, 0)) & evenBins(opacity, open.pattern) : 0u;
     open.horizon.square = raised ? point.y * abs(point.y) / dot(point, point) : open.horizon.square;
-    open.horizon.follows = found && !thing ? min(open.horizon.follows + kFollows * (open.horizon.angle - angle), 1.0) : open.horizon.follows;
+    open.horizon.connected = found && !object ? min(open.horizon.connected + kConnectionRate * (open.horizon.angle - angle), 1.0) : open.horizon.connected;
     open.horizon.angle = raised ? angle : open.horizon.angle;
 }
 

@@ -1,4 +1,4 @@
-// Lateral pyramid of things: a cell of level n is the mean of four of the level below.
+// Lateral pyramid of objects: a cell of level n is the mean of four cells of level n - 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/far_field/grid.glsl"
@@ -13,7 +13,7 @@ void main() {
     uint line = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y, lines = d.lines >> level, below = d.lines >> (level - 1u);
     if (line >= lines || j >= d.intervals >> level) return;
     uint from = levelBase(d, level - 1u, kPyramid) + 2u * j * below + 2u * line;
-    vec4 sum = unpackThing(imageLoad(cells, texelOf(from)).xy) + unpackThing(imageLoad(cells, texelOf(from + 1u)).xy) +
-               unpackThing(imageLoad(cells, texelOf(from + below)).xy) + unpackThing(imageLoad(cells, texelOf(from + below + 1u)).xy);
-    imageStore(cells, texelOf(levelBase(d, level, kPyramid) + j * lines + line), uvec4(packThing(0.25 * sum), 0u, 0u));
+    vec4 sum = unpackObject(imageLoad(cells, texelOf(from)).xy) + unpackObject(imageLoad(cells, texelOf(from + 1u)).xy) +
+               unpackObject(imageLoad(cells, texelOf(from + below)).xy) + unpackObject(imageLoad(cells, texelOf(from + below + 1u)).xy);
+    imageStore(cells, texelOf(levelBase(d, level, kPyramid) + j * lines + line), uvec4(packObject(0.25 * sum), 0u, 0u));
 }

@@ -1,4 +1,4 @@
-// Two horizons for each slice of the hemisphere, of a depth buffer.
+// GTAO from a depth buffer: two horizons for each slice of the hemisphere.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "horizons.glsl"

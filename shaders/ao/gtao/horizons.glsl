@@ -1,43 +1,44 @@
-// Two horizons for each slice of the hemisphere, and what is open between them in closed form. Formulas in runtime/ao/methods/gtao.cpp.
-// In and out: ao/common/slice.glsl; with DEPTH_LAYERS, spans of matter, and their depths alone are read at coarser levels.
+// GTAO: two horizons for each slice of the hemisphere and the closed-form visibility between them. Formulas: runtime/ao/methods/gtao.cpp.
+// In and out: ao/common/slice.glsl; with DEPTH_LAYERS also packed layers with their own coarser levels, and `depths` has level 0 only.
 #ifndef OBSCURA_GTAO_HORIZONS_GLSL
 #define OBSCURA_GTAO_HORIZONS_GLSL
 #include "ao/common/slice.glsl"
 #include "shared/falloff.h"
 #ifdef DEPTH_LAYERS
 #include "ao/common/spans.glsl"
-layout(set = 0, binding = 4, rgba32ui) uniform readonly uimage2D spans;
+layout(set = 0, binding = 4, rgba32ui) uniform readonly uimage2D packedLayers;
 #endif
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
     uint slices;
     uint steps;       // a side
     float mipOffset;  // log2 of px up to which level 0 is read
-    float power;      // of visibility
-    float least;      // visibility
-    uint rayAxis;     // slices lie evenly 0: on the screen, 1: around the view ray
+    float power;      // exponent on visibility
+    float least;      // lowest visibility
+    uint rayAxis;     // slices are evenly spaced 0: on the screen, 1: around the view ray
 };
 layout(constant_id = 0) const bool kArcs = false;
 
 #ifdef DEPTH_LAYERS
-// One side of a slice, 32 parts of equal weight, each blocked once: from the end of the hemisphere to the eye.
+// One side of a slice, from the edge of the hemisphere to the eye: a mask of 32 intervals of equal weight; each is blocked once.
 struct Side {
-    float nv, no, low, whole;  // whole: sliceArc of low
+    float nv, no, low, whole;  // low: cosine at the hemisphere's edge; whole: sliceArc of low
     uint covered;
     float blocked;             // 32nds
-    vec3 before;               // the last sample's front, from the pixel, and its cosine
-    float reached;
+    vec3 previous;             // the previous sample's front, from the pixel
+    float previousCosine;
 };
-const float kFlat = 0.05;      // sine of the angle up to which two samples lie in one plane
+const float kFlat = 0.05;      // sine of the largest angle between samples that are in one plane
 float placeAt(Side side, float c) { return clamp(32.0 - 32.0 * sliceArc(side.nv, side.no, max(c, side.low)) / side.whole, 0.0, 32.0); }
-// A span blocks from its front to its back, or down to where the last sample of its plane ended: by its falloff what it newly covers, or
-// all of what is left when both ends are mixed towards the hemisphere's. d is its front, `ray` the view ray's way for a metre of depth.
-void cover(inout Side side, FalloffBlock rho, vec3 v, vec3 d, vec3 ray, float size, float c, float down, bool counts) {
+// A layer blocks from its front (cosine c) to its back, or down to `down`, the previous sample of its plane. With kArcs the newly covered
+// intervals have the falloff as weight; else the falloff mixes both ends towards the hemisphere's edge. d: its front, from the pixel; ray:
+// the view ray per metre of depth; size: its packed length.
+void coverLayer(inout Side side, FalloffBlock rho, vec3 v, vec3 d, vec3 ray, float size, float c, float down, bool counts) {
     vec3 b = d + abs(size) * ray;
     float along = size > 0.0 ? clamp(-dot(d, ray) / dot(ray, ray), 0.0, size) : 0.0;
     float weight = falloff(rho, length(d + along * ray)), back = min(dot(b, v) * inversesqrt(max(dot(b, b), 1e-20)), down);
     float upper = kArcs ? c : mix(side.low, c, weight), lower = kArcs ? back : mix(side.low, max(back, side.low), weight);
-    uint bits = counts ? partsBetween(placeAt(side, lower), placeAt(side, upper)) & ~side.covered : 0u;
+    uint bits = counts ? bitsBetween(placeAt(side, lower), placeAt(side, upper)) & ~side.covered : 0u;
     side.covered |= bits;
     side.blocked += (kArcs ? weight : 1.0) * float(bitCount(bits));
 }
@@ -50,12 +51,12 @@ void main() {
     Receiver r;
     if (!receive(view, p, rho.reach, r)) return;
 
-    float open = kArcs ? 0.0 : clamp((10.0 - r.radius) / 100.0, 0.0, 1.0) * 0.5;  // a fade where the reach is a few pixels
+    float open = kArcs ? 0.0 : clamp((10.0 - r.radius) / 100.0, 0.0, 1.0) * 0.5;  // fades out where the reach is a few pixels
     float blocked = 0.0;
     for (uint k = 0u;;) {
         Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(slices), rayAxis != 0u);
         float no = dot(r.n, slice.across), projected = sqrt(max(no * no + r.nv * r.nv, 1e-12)), sine = no / projected;
-        vec2 low = vec2(-sine, sine);  // cosines of gamma +- pi/2: where the hemisphere ends
+        vec2 low = vec2(-sine, sine);  // cosines of gamma +- pi/2, the hemisphere's edges
 #ifdef DEPTH_LAYERS
         Side halves[2];
         for (int side = 0; side < 2; ++side) {
@@ -66,7 +67,7 @@ void main() {
         vec2 horizon = low, covered = vec2(0.0);
         vec2 before = kArcs ? vec2(sliceArc(r.nv, no, low.x), sliceArc(r.nv, -no, low.y)) : vec2(0.0);
         for (uint i = 0u;;) {
-            float t = placeOf(r, k, i, steps), l = t * t * r.radius + kTooClose;  // denser near the pixel
+            float t = samplePlace(r, k, i, steps), l = t * t * r.radius + kTooClose;  // denser near the pixel
             int level = levelAt(l, mipOffset);
             vec2 offset = floor(l * slice.along + 0.5);
             for (int side = 0; side < 2; ++side) {
@@ -74,21 +75,21 @@ void main() {
                 vec2 at = side == 0 ? r.pixel + offset : r.pixel - offset;
                 bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
                 ivec2 cell = clamp(ivec2(at), ivec2(0), r.last) >> level, q = pixelIn(cell, level, r.last);
-                uvec4 texel = imageLoad(spans, cell + mipTexel(r.padded, ivec2(0), level));
-                Spans matter = unpackSpans(texel);
-                vec3 d = eyePosition(view, vec2(q) + 0.5, matter.first) - r.here, ray = eyePosition(view, vec2(q) + 0.5, matter.first + 1.0) - r.here - d;
-                vec3 from = d - halves[side].before, e = d + (matter.second - matter.first) * ray;
+                uvec4 texel = imageLoad(packedLayers, cell + mipTexel(r.padded, ivec2(0), level));
+                Layers layers = unpackLayers(texel);
+                vec3 d = eyePosition(view, vec2(q) + 0.5, layers.first) - r.here, ray = eyePosition(view, vec2(q) + 0.5, layers.first + 1.0) - r.here - d;
+                vec3 from = d - halves[side].previous, e = d + (layers.second - layers.first) * ray;
                 float inverse = inversesqrt(max(dot(d, d), 1e-20)), inverseE = inversesqrt(max(dot(e, e), 1e-20)), c = dot(d, r.v) * inverse;
-                float off = dot(unpackNormal(texel.y), from), down = off * off < kFlat * kFlat * dot(from, from) ? halves[side].reached : 1.0;
-                cover(halves[side], rho, r.v, d, ray, matter.firstLength, c, down, inside && dot(d, r.n) * inverse > 0.001);
-                cover(halves[side], rho, r.v, e, ray, matter.secondLength, dot(e, r.v) * inverseE, 1.0, inside && matter.second > 0.0 && dot(e, r.n) * inverseE > 0.001);
-                halves[side].before = inside ? d : halves[side].before;
-                halves[side].reached = inside ? c : halves[side].reached;
+                float off = dot(unpackNormal(texel.y), from), down = off * off < kFlat * kFlat * dot(from, from) ? halves[side].previousCosine : 1.0;
+                coverLayer(halves[side], rho, r.v, d, ray, layers.firstLength, c, down, inside && dot(d, r.n) * inverse > 0.001);
+                coverLayer(halves[side], rho, r.v, e, ray, layers.secondLength, dot(e, r.v) * inverseE, 1.0, inside && layers.second > 0.0 && dot(e, r.n) * inverseE > 0.001);
+                halves[side].previous = inside ? d : halves[side].previous;
+                halves[side].previousCosine = inside ? c : halves[side].previousCosine;
 #else
-                vec3 d = towards(view, r, side == 0 ? r.pixel + offset : r.pixel - offset, level);
+                vec3 d = toSurface(view, r, side == 0 ? r.pixel + offset : r.pixel - offset, level);
                 float inverse = inversesqrt(max(dot(d, d), 1e-20)), weight = falloff(rho, dot(d, d) * inverse), c = dot(d, r.v) * inverse;
                 if (kArcs) {
-                    bool raised = c > horizon[side] && dot(d, r.n) * inverse > 0.001;  // texels of the pixel's own plane raise nothing
+                    bool raised = c > horizon[side] && dot(d, r.n) * inverse > 0.001;  // samples in the tangent plane raise nothing
                     float now = sliceArc(r.nv, side == 0 ? no : -no, c);
                     covered[side] += raised ? weight * (before[side] - now) : 0.0;
                     before[side] = raised ? now : before[side];

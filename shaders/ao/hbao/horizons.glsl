@@ -1,5 +1,5 @@
-// One invocation a visible pixel, directions x steps nearest-texel samples. Formulas in runtime/ao/methods/hbao.cpp.
-// In: linear depth, packed normals (guard band included); with DEPTH_LAYERS, spans of matter. Out: visibility, R16F.
+// HBAO, one invocation per visible pixel, directions x steps nearest-texel samples. Formulas: runtime/ao/methods/hbao.cpp.
+// In: linear depth, packed normals, guard band included; with DEPTH_LAYERS, packed layers. Out: visibility, R16F.
 #ifndef OBSCURA_HBAO_HORIZONS_GLSL
 #define OBSCURA_HBAO_HORIZONS_GLSL
 #include "ao/common/tile.glsl"
@@ -15,7 +15,7 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 #ifdef DEPTH_LAYERS
-layout(set = 0, binding = 4, rgba32ui) uniform readonly uimage2D spans;
+layout(set = 0, binding = 4, rgba32ui) uniform readonly uimage2D packedLayers;
 #endif
 layout(push_constant) uniform Constants {
     FalloffBlock falloffBlock;
@@ -24,9 +24,9 @@ layout(push_constant) uniform Constants {
     float bias;       // radians
     float maxPixels;  // longest reach, px
     float spacing;    // samples lie at mix(t, t^2, spacing) of the reach, t = (i + offset) / steps
-    uint viewAxis;    // elevations over the plane across 0: the camera's axis, as the paper; 1: the pixel's own view ray
-    uint sampleTest;  // 1: a sample counts only when it stands above the tangent plane by the bias itself
-    uint side;        // of the tile whose pixels share out the directions; 1: each does all
+    uint viewAxis;    // elevations are measured from 0: the camera's axis, as in the paper; 1: the pixel's view ray
+    uint sampleTest;  // 1: a sample counts only if it is above the tangent plane by the bias itself
+    uint side;        // of the interleaving tile, px; 1: not interleaved
 };
 
 const float kTwoPi = 6.28318531;
@@ -35,8 +35,8 @@ const float kTwoPi = 6.28318531;
 const float kRotation[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
 const float kOffset[16] = float[](5, 13, 7, 15, 9, 1, 11, 3, 6, 14, 4, 12, 10, 2, 8, 0);
 
-// Sine of the elevation, above the plane across the view direction, of the tangent plane towards the next pixel: where
-// that pixel's view ray meets the plane.
+// Sine of the elevation of the tangent plane in a direction on the screen, measured from the plane perpendicular to v: of the point where
+// the view ray of the next pixel intersects the tangent plane.
 float tangentSine(View view, vec3 here, vec3 n, vec3 v, vec2 pixel, vec2 direction) {
     vec3 ahead = eyePosition(view, pixel + direction, -here.z);
     vec3 t;
@@ -46,28 +46,28 @@ float tangentSine(View view, vec3 here, vec3 n, vec3 v, vec2 pixel, vec2 directi
     } else {
         float facing = dot(n, ahead);
         t = abs(facing) > 1e-6 ? ahead * (dot(n, here) / facing) - here : ahead;
-        if (facing * dot(n, here) <= 0.0) t = -v;  // the ray never meets the plane: it falls away behind the horizon
+        if (facing * dot(n, here) <= 0.0) t = -v;  // no intersection: the plane falls away behind the horizon
     }
     return dot(t, v) * inversesqrt(max(dot(t, t), 1e-20));
 }
 
 #ifdef DEPTH_LAYERS
-// What is left open of a direction, from the horizon it starts with to the eye: 32 parts, even in the sine, each blocked once.
+// One direction from the initial horizon to the eye: a mask of 32 intervals, equal in the sine; each is blocked once.
 struct Arc {
     float start, scale;
     uint covered;
-    vec3 before;    // the last sample's front, from the pixel, and its sine
-    float reached;
+    vec3 previous;        // the previous sample's front, from the pixel
+    float previousSine;
 };
-const float kFlat = 0.05;  // sine of the angle up to which two samples lie in one plane
-float placeOf(Arc arc, float sine) { return clamp((sine - arc.start) * arc.scale, 0.0, 32.0); }
-// Parts that a span covers anew, times its falloff: from its front to its back, or down to where the last sample of its plane ended.
-// d is the span's front, `ray` the view ray's way for a metre of depth.
-float coverSpan(inout Arc arc, FalloffBlock rho, vec3 d, vec3 ray, float size, float sine, float down, vec3 v, bool counts) {
+const float kFlat = 0.05;  // sine of the largest angle between samples that are in one plane
+float placeInArc(Arc arc, float sine) { return clamp((sine - arc.start) * arc.scale, 0.0, 32.0); }
+// Number of intervals that a layer newly covers, times its falloff. It covers from its front to its back, or down to `down`, the previous
+// sample of its plane. d: its front, from the pixel; ray: the view ray per metre of depth; size: its packed length.
+float coverLayer(inout Arc arc, FalloffBlock rho, vec3 d, vec3 ray, float size, float sine, float down, vec3 v, bool counts) {
     vec3 b = d + abs(size) * ray;
     float back = min(dot(b, v) * inversesqrt(max(dot(b, b), 1e-20)), down);
     float along = size > 0.0 ? clamp(-dot(d, ray) / dot(ray, ray), 0.0, size) : 0.0;
-    uint bits = counts ? partsBetween(placeOf(arc, back), placeOf(arc, sine)) & ~arc.covered : 0u;
+    uint bits = counts ? bitsBetween(placeInArc(arc, back), placeInArc(arc, sine)) & ~arc.covered : 0u;
     arc.covered |= bits;
     return float(bitCount(bits)) * falloff(rho, length(d + along * ray));
 }
@@ -101,7 +101,7 @@ void main() {
     float rotation = fract(noise.x + shift.x);
     float offset = fract(noise.y + shift.y);
     float stepPixels = max(reach / float(steps), 1.0);
-    float span = stepPixels * float(steps);
+    float reachPixels = stepPixels * float(steps);
     float inverseSteps = 1.0 / float(steps);
     ivec2 last = ivec2(view.size) - 1;
     vec2 size = vec2(view.size);
@@ -120,21 +120,21 @@ void main() {
 #endif
         for (uint i = 0u;;) {
             float t = (float(i) + offset) * inverseSteps;
-            vec2 at = pixel + direction * max(mix(t, t * t, spacing) * span, 1.0);
+            vec2 at = pixel + direction * max(mix(t, t * t, spacing) * reachPixels, 1.0);
             ivec2 q = clamp(ivec2(at), ivec2(0), last);
             bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, size));
 #ifdef DEPTH_LAYERS
-            uvec4 packed = imageLoad(spans, q);
-            Spans matter = unpackSpans(packed);
-            vec3 d = eyePosition(view, vec2(q) + 0.5, matter.first) - here;
-            vec3 ray = eyePosition(view, vec2(q) + 0.5, matter.first + 1.0) - here - d;
-            vec3 m = unpackNormal(packed.y), from = d - arc.before, e = d + (matter.second - matter.first) * ray;
+            uvec4 packed = imageLoad(packedLayers, q);
+            Layers layers = unpackLayers(packed);
+            vec3 d = eyePosition(view, vec2(q) + 0.5, layers.first) - here;
+            vec3 ray = eyePosition(view, vec2(q) + 0.5, layers.first + 1.0) - here - d;
+            vec3 m = unpackNormal(packed.y), from = d - arc.previous, e = d + (layers.second - layers.first) * ray;
             float inverse = inversesqrt(max(dot(d, d), 1e-20)), inverseE = inversesqrt(max(dot(e, e), 1e-20)), off = dot(m, from), sine = dot(d, v) * inverse;
-            float down = off * off < kFlat * kFlat * dot(from, from) ? arc.reached : 1.0;
-            covered += coverSpan(arc, rho, d, ray, matter.firstLength, sine, down, v, inside && dot(d, n) * inverse >= leastRise);
-            covered += coverSpan(arc, rho, e, ray, matter.secondLength, dot(e, v) * inverseE, 1.0, v, inside && matter.second > 0.0 && dot(e, n) * inverseE >= leastRise);
-            arc.before = inside ? d : arc.before;
-            arc.reached = inside ? sine : arc.reached;
+            float down = off * off < kFlat * kFlat * dot(from, from) ? arc.previousSine : 1.0;
+            covered += coverLayer(arc, rho, d, ray, layers.firstLength, sine, down, v, inside && dot(d, n) * inverse >= leastRise);
+            covered += coverLayer(arc, rho, e, ray, layers.secondLength, dot(e, v) * inverseE, 1.0, v, inside && layers.second > 0.0 && dot(e, n) * inverseE >= leastRise);
+            arc.previous = inside ? d : arc.previous;
+            arc.previousSine = inside ? sine : arc.previousSine;
 #else
             vec3 d = eyePosition(view, vec2(q) + 0.5, imageLoad(depth, q).x) - here;
             float distance2 = dot(d, d);

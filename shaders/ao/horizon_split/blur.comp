@@ -1,5 +1,5 @@
-// The paper's blur: a 5x5 Gaussian, each sample weighted by the inverse of how far its depth is from the middle's
-// [Dimitrov, sec. 4.1.3]. The deviation is relative to depth, so that it holds at any scale.
+// The paper's blur: 5x5 Gaussian, weighted by the inverse of the depth difference to the centre [Dimitrov, sec. 4.1.3]. The difference is
+// relative to depth, so that the blur works at any scale.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/view.h"

@@ -1,6 +1,5 @@
-// Horizon tracing and the occlusion below the horizon [Dimitrov, sec. 3.1, 3.2, 3.5]: a line starts in the tangent plane
-// and is bent up, towards the eye, by whatever stands before it.
-// In: linear depth, packed normals (guard band included). Out: 1 - O_T, R16F; H^2 per direction, for the normal rays.
+// Horizon tracing and the occlusion below the horizon [Dimitrov, sec. 3.1, 3.2, 3.5]: a line starts in the tangent plane and is raised by
+// surfaces in front of it. In: linear depth, packed normals, guard band included. Out: 1 - O_T, R16F; H^2 per direction for normal rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/horizon_split/march.glsl"
@@ -12,16 +11,16 @@ layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D horizons;
 
-// One direction's line on its way. `sine` of its elevation is H.
+// State of one direction's line. `sine`, of its elevation, is H.
 struct Line {
     vec3 t, along;    // tangent; the same in homogeneous pixels
-    float at, l;      // the next step: part of the radius, metres
+    float at, l;      // the next step: fraction of the radius, metres
     float sine, cosine;
-    float before;     // falloff where the strip being looked for begins
+    float before;     // falloff at the start of the current strip
     float occlusion;
 };
 
-// One step: does the surface at the line's end stand before it? Then it bends the line up.
+// One step. A surface in front of the line's end raises the line.
 void march(inout Line line, Origin origin, vec3 start, vec3 up, Lens lens, FalloffBlock rho, Steps walk) {
     vec3 q = start + line.l * (line.cosine * line.along + line.sine * up);
     ivec2 texel;
@@ -33,7 +32,7 @@ void march(inout Line line, Origin origin, vec3 start, vec3 up, Lens lens, Fallo
     float s = dot(v, origin.n) * inverse, distance = square * inverse;
     float behind = q.z - z;
     bool raises = inside && behind > 0.0 && behind < walk.thickness && distance < walk.radius && dot(v, line.t) > 0.0 && s > line.sine;
-    // Until the first rise a strip begins at the tangent plane, where the line is: one evaluation serves both.
+    // Before the first rise a strip starts in the tangent plane, at the line itself, so one evaluation is enough.
     float here = falloff(rho, raises ? distance : line.l);
     // H^2 gained by this strip, weighted by the mean of its two ends [Dimitrov, eq. 6, sec. 3.5].
     line.occlusion += raises ? (s * s - line.sine * line.sine) * 0.5 * (here + max(here, line.before)) : 0.0;
@@ -66,7 +65,7 @@ void main() {
 
     float occlusion = 0.0;
     uint word = 0u;
-    // Two lines at a time: a step waits for the one before it, and the other line's step fills the wait.
+    // Two lines at a time, because the steps of one line depend on each other.
     for (uint i = 0u; i < count; i += 2u) {
         Line lines[2];
         for (uint k = 0u; k < 2u; ++k) {
@@ -79,9 +78,9 @@ void main() {
             march(lines[0], origin, start, up, lens, rho, walk);
             march(lines[1], origin, start, up, lens, rho, walk);
         }
-        if (i + 1u == count) lines[1].sine = lines[1].occlusion = 0.0;  // an odd count's last line is alone
+        if (i + 1u == count) lines[1].sine = lines[1].occlusion = 0.0;  // odd count: no second line
         occlusion += lines[0].occlusion + lines[1].occlusion;
-        // Rounded up: no ray may start below the horizon, and both terms together stay at most 1.
+        // Rounded up, so that no ray starts below the horizon and the sum of both terms is at most 1.
         uvec2 sines = uvec2(ceil(vec2(lines[0].sine * lines[0].sine, lines[1].sine * lines[1].sine) * 255.0));
         word |= (min(sines.x, 255u) | min(sines.y, 255u) << 8) << (8u * (i & 2u));
         if ((i & 2u) != 0u || i + 2u >= count) {

@@ -1,4 +1,4 @@
-// What horizons and normal rays share: the noise tile, the frame of directions around a normal, and where samples lie.
+// Shared by horizons and normal rays: noise, directions around a normal, and positions of samples.
 #ifndef OBSCURA_HORIZON_SPLIT_MARCH_GLSL
 #define OBSCURA_HORIZON_SPLIT_MARCH_GLSL
 #include "ao/common/lens.glsl"
@@ -10,20 +10,20 @@ layout(push_constant) uniform Constants {  // of both passes
     FalloffBlock falloffBlock;
     uint directions;  // N_d
     uint steps;       // N_s
-    uint rays;        // N_n, per direction; horizons ask whether there are any
+    uint rays;        // N_n, per direction; 0: horizons are not stored
     float radius;     // R, metres
     float spacing;    // of steps: 0 even, as in the paper; 1 quadratic, denser near the pixel
     float jitter;     // of steps, 0..1
     float offset;     // of lines from the surface, pixels
-    float horizonThickness, rayThickness;  // of surfaces in the way of horizons and of rays, metres
-    uint side;        // of the tile whose pixels share out the directions; 1: each does all
+    float horizonThickness, rayThickness;  // of surfaces, for horizons and for rays, metres
+    uint side;        // of the interleaving tile, px; 1: not interleaved
 };
 
-// Two permutations of 0..15 over a 4x4 tile; the third noise is a third one. Values are (i + 0.5) / 16.
+// Three permutations of 0..15 over a 4x4 tile. Values are (i + 0.5) / 16.
 const float kRotation[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
 const float kStep[16] = float[](5, 13, 7, 15, 9, 1, 11, 3, 6, 14, 4, 12, 10, 2, 8, 0);
 const float kNormal[16] = float[](9, 2, 12, 7, 4, 15, 1, 10, 14, 5, 11, 0, 3, 8, 6, 13);
-// From direction to direction step and elevation move on by these, so that one pixel's lines do not sample in one rhythm.
+// Increments of the noise of step and elevation from direction to direction, so that a pixel's lines sample at different distances.
 const float kNextStep = 0.61803399, kNextNormal = 0.75487767;
 
 struct Noise {  // each in [0,1)
@@ -36,7 +36,7 @@ Noise noiseAt(View view, ivec2 p) {
     return Noise(noise.x, noise.y, noise.z);
 }
 
-// A pixel's share of the directions: how many, the first one, and the turn from each to the next.
+// A pixel's share of the directions: their number, the first one, and the rotation from each to the next.
 struct Share {
     uint count;
     vec2 first;
@@ -48,9 +48,9 @@ Share shareOfPixel(View view, ivec2 p, Noise noise, uint directions, uint side) 
     return Share(directions / (side * side), vec2(cos(first), sin(first)), mat2(cos(turn), sin(turn), -sin(turn), cos(turn)));
 }
 
-// Where a pixel's lines start and around what they turn.
+// Start of a pixel's lines and the basis of their directions.
 struct Origin {
-    vec3 position;  // a pixel's footprint above the surface [Dimitrov, eq. 13; a whole pixel, see the method's file]
+    vec3 position;  // raised by `offset` footprints of a pixel [Dimitrov, eq. 13; see methods/horizon_split.cpp]
     vec3 n, b, c;   // normal and two tangents
 };
 Origin originAt(View view, ivec2 texel, float z, vec3 n, float offset) {
@@ -61,20 +61,20 @@ Origin originAt(View view, ivec2 texel, float z, vec3 n, float offset) {
     return Origin(p + n * (offset * footprint), n, vec3(1.0 - n.x * n.x * a, -n.x * n.y * a, -n.x), vec3(-n.x * n.y * a, 1.0 - n.y * n.y * a, -n.y));
 }
 
-// Where samples lie along a line: step j of N_s at part t = (j + noise) / N_s of it.
+// Positions of samples along a line: step j of N_s at the fraction t = (j + noise) / N_s.
 struct Steps {
     uint count;
     float part;       // from step to step, 1 / N_s
     float radius, spacing;
-    float thickness;  // of the surfaces that the depth buffer shows, metres
+    float thickness;  // of surfaces in the depth buffer, metres
 };
 Steps stepsOf(uint count, float radius, float spacing, float thickness) {
     return Steps(count, 1.0 / float(max(count, 1u)), radius, spacing, thickness);
 }
 float metresAt(Steps walk, float t) { return walk.radius * t * mix(1.0, t, walk.spacing); }
 
-// H^2 of every direction in 8 bits, four directions a word; words stand beside and below each other in one image, as many to a row as
-// wordColumns() of the method's file says.
+// Texel of a word: H^2 of four directions, 8 bits each. Words of a pixel are side by side and below each other in one image; words per row:
+// wordColumns() of methods/horizon_split.cpp.
 ivec2 wordAt(ivec2 p, uint word, uvec2 visible) {
     uint columns = visible.x > 8192u ? 1u : visible.y > 4096u ? 6u : 2u;
     return p + ivec2(uvec2(word % columns, word / columns) * visible);

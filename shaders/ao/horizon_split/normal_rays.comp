@@ -1,4 +1,4 @@
-// Normal rays through the depth buffer, whose surfaces are `thickness` deep.
+// Normal rays through the depth buffer; surfaces have a constant thickness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/horizon_split/march.glsl"
@@ -14,7 +14,7 @@ Space spaceOf(View view, Origin origin) {
 }
 vec3 towards(Space space, vec3 d) { return toPixels(space.lens, d); }
 
-// The middle of the step that found it.
+// Returns the middle of the first step that is blocked.
 float blockedAt(Space space, vec3 ray, Steps walk, float first) {
     float result = kFree, before = 0.0;
     float at = first;

@@ -1,9 +1,9 @@
-// Normal rays: what blocks the hemisphere above the horizon [Dimitrov, sec. 3.3]. Every direction has its own share 1-H^2.
-// In: linear depth, packed normals, 1 - O_T, H^2 per direction. Out: 1 - O_N, and both terms together.
-// What rays run through is the includer's, which defines, before it includes this, `struct Space` and declares
-//     Space spaceOf(View view, Origin origin);                        what a pixel's rays need
-//     vec3 towards(Space space, vec3 d);                              an eye-space direction as a ray has it
-//     float blockedAt(Space space, vec3 ray, Steps walk, float first);  how far along it something stands in its way, metres, or kFree
+// Normal rays: occlusion above the horizon [Dimitrov, sec. 3.3]. The rays of a direction have the weight 1 - H^2 of that direction.
+// In: linear depth, packed normals, 1 - O_T, H^2 per direction. Out: 1 - O_N, and visibility of both terms.
+// The includer provides the space that rays are traced in: it defines `struct Space` before including this, and
+//     Space spaceOf(View view, Origin origin);                          state for a pixel's rays
+//     vec3 towards(Space space, vec3 d);                                converts an eye-space direction to that space
+//     float blockedAt(Space space, vec3 ray, Steps walk, float first);  distance to the first occluder, metres, or kFree
 #ifndef OBSCURA_HORIZON_SPLIT_NORMAL_RAYS_GLSL
 #define OBSCURA_HORIZON_SPLIT_NORMAL_RAYS_GLSL
 #include "shared/octahedral.glsl"
@@ -38,9 +38,9 @@ void main() {
     Space space = spaceOf(view, origin);
     vec3 up = towards(space, origin.n);
     Steps walk = stepsOf(steps, radius, spacing, rayThickness);
-    Share part = shareOfPixel(view, p, noise, directions, side);
-    vec2 direction = part.first;
-    uint count = part.count;
+    Share share = shareOfPixel(view, p, noise, directions, side);
+    vec2 direction = share.first;
+    uint count = share.count;
 
     float occlusion = 0.0;
     uint word = 0u;
@@ -51,14 +51,14 @@ void main() {
         vec3 along = towards(space, direction.x * origin.b + direction.y * origin.c);
         float first = mix(0.5, fract(noise.step + float(i) * kNextStep), jitter) * walk.part;
         float elevation = fract(noise.normal + float(i) * kNextNormal);
-        // Equal shares of what is left above this direction's horizon [Dimitrov, eq. 8-11, per direction].
-        float share = (1.0 - horizon2) / float(rays);
+        // Equal weights of the part above this direction's horizon [Dimitrov, eq. 8-11, per direction].
+        float weight = (1.0 - horizon2) / float(rays);
         for (uint k = 0u; k < rays; ++k) {
-            float sine2 = horizon2 + (float(k) + elevation) * share;
+            float sine2 = horizon2 + (float(k) + elevation) * weight;
             vec3 ray = sqrt(max(1.0 - sine2, 0.0)) * along + sqrt(sine2) * up;
-            occlusion += share * falloff(rho, blockedAt(space, ray, walk, first));
+            occlusion += weight * falloff(rho, blockedAt(space, ray, walk, first));
         }
-        direction = part.next * direction;
+        direction = share.next * direction;
     }
     occlusion /= float(count);
     imageStore(aboveHorizon, p, vec4(clamp(1.0 - occlusion, 0.0, 1.0)));

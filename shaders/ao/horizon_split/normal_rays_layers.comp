@@ -1,4 +1,4 @@
-// Normal rays through depth layers: surfaces end where they do.
+// Normal rays through depth layers; surfaces have their rendered thickness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/spans.glsl"
@@ -8,7 +8,7 @@ struct Space {
     vec3 start;  // in homogeneous pixels, as rays are
 };
 #include "ao/horizon_split/normal_rays.glsl"
-layout(set = 0, binding = 7, rgba32ui) uniform readonly uimage2D spans;
+layout(set = 0, binding = 7, rgba32ui) uniform readonly uimage2D packedLayers;
 
 Space spaceOf(View view, Origin origin) {
     Lens lens = lensOf(view);
@@ -16,7 +16,7 @@ Space spaceOf(View view, Origin origin) {
 }
 vec3 towards(Space space, vec3 d) { return toPixels(space.lens, d); }
 
-// The middle of the step that found it. What a whole step passes through counts, however thin it is.
+// Returns the middle of the first step that is blocked. A layer that a step crosses counts, however thin.
 float blockedAt(Space space, vec3 ray, Steps walk, float first) {
     float result = kFree, before = 0.0, zBefore = space.start.z;
     float at = first;
@@ -25,11 +25,11 @@ float blockedAt(Space space, vec3 ray, Steps walk, float first) {
         vec3 q = space.start + l * ray;
         ivec2 texel;
         bool inside = texelOf(space.lens, q, texel);
-        Spans matter = unpackSpans(imageLoad(spans, texel));
+        Layers layers = unpackLayers(imageLoad(packedLayers, texel));
         float near = min(q.z, zBefore), far = max(q.z, zBefore);
-        bool meets = q.z > matter.first && near < matter.first + abs(matter.firstLength);
-        bool meetsSecond = matter.second > 0.0 && far > matter.second && near < matter.second + abs(matter.secondLength);
-        result = inside && (meets || meetsSecond) ? min(result, 0.5 * (l + before)) : result;
+        bool hitsFirst = q.z > layers.first && near < layers.first + abs(layers.firstLength);
+        bool hitsSecond = layers.second > 0.0 && far > layers.second && near < layers.second + abs(layers.secondLength);
+        result = inside && (hitsFirst || hitsSecond) ? min(result, 0.5 * (l + before)) : result;
         before = l;
         zBefore = q.z;
         at += walk.part;

@@ -1,4 +1,4 @@
-// Normal rays through the window of bits.
+// Normal rays through the dense volume.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define VOLUME_BINDING 8

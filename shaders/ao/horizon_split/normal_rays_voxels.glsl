@@ -1,4 +1,4 @@
-// Normal rays through voxels of the world: they meet what the picture does not show, and nothing is endlessly thick.
+// Normal rays through voxels of the world, which include occluders outside the image and have their true thickness.
 #ifndef OBSCURA_NORMAL_RAYS_VOXELS_GLSL
 #define OBSCURA_NORMAL_RAYS_VOXELS_GLSL
 #include "ao/horizon_split/march.glsl"
@@ -10,8 +10,8 @@ struct Space {
 #include "ao/horizon_split/normal_rays.glsl"
 layout(set = 0, binding = 7, std140) uniform VolumeBlock { Volume volumeBlock; };
 
-const float kLift = 2.0;       // cells; a plane's own conservative cells end sqrt(3) above it
-const float kStride = 1.25;    // cells a step at most: walls are a cell thick where they lie along the grid
+const float kLift = 2.0;       // cells; the cells that touch a plane end sqrt(3) above it
+const float kStride = 1.25;    // longest step, cells; a wall parallel to the grid is one cell thick
 const float kMostSteps = 64.0;
 
 Space spaceOf(View view, Origin origin) {
@@ -24,7 +24,7 @@ vec3 towards(Space space, vec3 d) { return cellsAlong(space.volume, d); }
 float blockedAt(Space space, vec3 ray, Steps walk, float first) {
     float steps = clamp(ceil(walk.radius / (kStride * space.volume.anchor.w)), 1.0, kMostSteps), step = walk.radius / steps, shift = first / walk.part;
     float result = kFree;
-    for (float k = steps - 1.0; k >= 0.0; --k) {  // back to front: what is found last is nearest
+    for (float k = steps - 1.0; k >= 0.0; --k) {  // back to front: the last hit is the nearest
         float l = (k + shift) * step;
         result = occupied(space.volume, space.start + l * ray) ? l + 0.5 * kLift * space.volume.anchor.w : result;
     }

@@ -1,4 +1,4 @@
-// Segments of occlusion by one span of matter a texel.
+// Segments of occlusion from one depth layer per texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/layered/segments.glsl"

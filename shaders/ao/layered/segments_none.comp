@@ -1,5 +1,5 @@
-// Segments of occlusion where there are no depth layers.
+// Segments of occlusion from the depth buffer alone, with an assumed thickness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define NO_SPANS
+#define NO_LAYERS
 #include "ao/layered/segments.glsl"

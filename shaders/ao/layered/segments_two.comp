@@ -1,5 +1,5 @@
-// Segments of occlusion by two spans of matter a texel.
+// Segments of occlusion from two depth layers per texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define TWO_SPANS
+#define TWO_LAYERS
 #include "ao/layered/segments.glsl"

@@ -1,6 +1,6 @@
-// Obscurance from a depth pyramid: samples at distances that grow by a factor, from the level whose texels are as wide as the sector
-// there, and one at the picture's edge [Timonen 2013, sec. 5]. The estimator is far_field's, with slabs. Where surfaces are thin, depths are
-// not mixed: the nearest of each texel's, from one level [sec. 11].
+// Obscurance from a depth pyramid: samples at distances that grow by a factor, from the level whose texels are as wide as the sector there,
+// and one at the edge of the image [Timonen 2013, sec. 5]. The estimator is far_field's, with slabs. With kThin depths are not averaged:
+// texels hold the nearest depth and one level is read [sec. 11].
 // In: packed normals, depth pyramid, the falloff's table. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,7 +18,7 @@ layout(push_constant) uniform Constants {
     float factor;     // from step to step
     float unit;       // metres: the falloff's length
     float thickness;  // of surfaces, metres
-    float jitter;     // of directions, parts of a sector
+    float jitter;     // of directions, fraction of a sector
 };
 #include "ao/far_field/estimator.glsl"
 #include "ao/far_field/receiver.glsl"
@@ -38,7 +38,7 @@ void main() {
     float growth = factor, metres = unit, thick = thickness, half_ = kPi / float(directions), width = 2.0 * tan(half_);
     vec2 texelSize = 1.0 / r.size, sum = vec2(0.0), side = vec2(cos(half_), sin(half_)), along = jitterAt(view, texel, half_, jitter);
     mat2 next = mat2(cos(2.0 * half_), sin(2.0 * half_), -sin(2.0 * half_), cos(2.0 * half_));
-    for (uint k = 0u;;) {  // ends with its test, see far_field/sectors.glsl
+    for (uint k = 0u;;) {  // post-tested, see far_field/sectors.glsl
         Segment s = segmentOf(r, along, 1.0, side);
         Horizon h = horizonAt(s.start);
         Bins bins = binsBelow(s.start);

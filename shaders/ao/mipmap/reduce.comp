@@ -1,5 +1,5 @@
-// One level of a depth pyramid: the mean over the texels it covers, or the nearest of them where depths must not be mixed. A level of odd
-// size is covered by three texels on that axis, the outer ones in part, so that levels stay on top of each other.
+// One level of the depth pyramid: the mean of the texels that a texel covers, or the nearest of them. If the finer size is odd, a texel
+// covers parts of three texels on that axis, so that levels stay aligned.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,5 @@
-// A level's own obscurance joined with that of all coarser levels. In: depth and packed normals of both, near of this one,
-// the filtered next one. Out: an Obscurance.
+// Combines a level's own obscurance with that of all coarser levels. In: depth and packed normals of this and the next coarser level, own
+// obscurance, filtered obscurance of the coarser level. Out: an Obscurance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/multi_resolution/upsample.glsl"

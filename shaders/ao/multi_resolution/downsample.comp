@@ -1,9 +1,8 @@
-// The next coarser level of depth and normals [Hoang and Low 2012, table 2]: of four texels the median, or the second
-// nearest where they lie further apart than a threshold.
-// In: depth and packed normals of a level. Out: those of the next, half the size, rounded up.
+// Next coarser level of depth and normals [Hoang and Low 2012, table 2]: the median of four texels, or the second nearest if their depths
+// differ by more than a threshold. In: depth and packed normals of a level. Out: those of the next, half the size, rounded up.
 //
-// The paper keeps positions; here the texel that stands for the four is carried along its tangent plane to their middle,
-// so that depth alone says where it is and planes stay planes.
+// The paper keeps positions. Here the chosen texel's depth is moved along its tangent plane to the middle of the four, so that depth is
+// enough and planes stay planes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/multi_resolution/levels.glsl"
@@ -30,11 +29,11 @@ void order(inout Texel a, inout Texel b) {
     a = nearer;
 }
 
-// Depth at pixel `to` of the plane through `from` at depth z.
-float carried(View view, vec2 from, vec2 to, float z, vec3 n) {
+// Depth at pixel `to` of the plane with normal n through pixel `from` at depth z.
+float depthOnPlane(View view, vec2 from, vec2 to, float z, vec3 n) {
     vec2 xy = to * view.unproject.xy + view.unproject.zw;
-    bool flat_ = view.orthographic > 0.5;
-    float offset = dot(n, eyePosition(view, from, z)) - (flat_ ? dot(n.xy, xy) : 0.0), slope = (flat_ ? 0.0 : dot(n.xy, xy)) - n.z;
+    bool orthographic = view.orthographic > 0.5;
+    float offset = dot(n, eyePosition(view, from, z)) - (orthographic ? dot(n.xy, xy) : 0.0), slope = (orthographic ? 0.0 : dot(n.xy, xy)) - n.z;
     return abs(slope) > 1e-6 ? offset / slope : z;
 }
 
@@ -56,9 +55,9 @@ void main() {
     bool median = t[3].z - t[0].z <= threshold;
     vec3 n1 = unpackNormal(imageLoad(normals, t[1].at).x), n2 = unpackNormal(imageLoad(normals, t[2].at).x);
     vec2 middle = (2.0 * vec2(p) + 1.0) * texel;
-    // Of any plane the middle lies between the two; beyond, a slanted normal leads off the surface.
-    float z1 = clamp(carried(view, (vec2(t[1].at) + 0.5) * texel, middle, t[1].z, n1), t[1].z, t[2].z);
-    float z2 = clamp(carried(view, (vec2(t[2].at) + 0.5) * texel, middle, t[2].z, n2), t[1].z, t[2].z);
+    // On a plane the middle is between the two depths; the clamp limits errors of slanted normals.
+    float z1 = clamp(depthOnPlane(view, (vec2(t[1].at) + 0.5) * texel, middle, t[1].z, n1), t[1].z, t[2].z);
+    float z2 = clamp(depthOnPlane(view, (vec2(t[2].at) + 0.5) * texel, middle, t[2].z, n2), t[1].z, t[2].z);
     vec3 both = n1 + n2;
     imageStore(coarseDepth, p, vec4(median ? 0.5 * (z1 + z2) : z1));
     imageStore(coarseNormals, p, uvec4(packNormal(median && dot(both, both) > 1e-6 ? normalize(both) : n1)));

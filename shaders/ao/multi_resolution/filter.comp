@@ -1,5 +1,5 @@
-// Joint bilateral 3x3 of a level's obscurance [Hoang and Low 2012, table 4, with the weights of the text and normalised]: joins
-// the interleaved samples of neighbours and smooths the maximum before it goes up a level.
+// Joint bilateral 3x3 filter of a level's obscurance [Hoang and Low 2012, table 4, with the weights of the text, normalised]: averages the
+// interleaved samples of neighbours and smooths the maximum before it is passed to the finer level.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/multi_resolution/levels.glsl"

@@ -1,4 +1,4 @@
-// The finest level, whose pixels took all samples, joined with the coarser ones; see finish.glsl.
+// Combines the finest level with the coarser ones; no interleaving. See finish.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "finish.glsl"

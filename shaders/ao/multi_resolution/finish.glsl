@@ -1,5 +1,5 @@
-// The finest level joined with all coarser ones, and their maximum and mean as one [Hoang and Low 2012, eq. 11]. As
-// combine.comp, but writes visibility, R16F, of the visible part.
+// Combines the finest level with all coarser ones, then maximum and mean into visibility [Hoang and Low 2012, eq. 11]. Like combine.comp,
+// but writes visibility, R16F, of the visible part.
 #ifndef OBSCURA_MULTI_RESOLUTION_FINISH_GLSL
 #define OBSCURA_MULTI_RESOLUTION_FINISH_GLSL
 #include "ao/multi_resolution/upsample.glsl"

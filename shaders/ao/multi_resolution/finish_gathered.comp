@@ -1,4 +1,4 @@
-// The finest level, as the shared gather has it, joined with the coarser ones; see finish.glsl.
+// Combines the gathered, interleaved finest level with the coarser ones; see finish.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GATHERED

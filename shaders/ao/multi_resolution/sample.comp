@@ -1,4 +1,4 @@
-// Samples of one level; see sample.glsl. Out: an Obscurance for an area of the level.
+// Samples of one level; see sample.glsl. Out: an Obscurance per texel of the level's area.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "sample.glsl"

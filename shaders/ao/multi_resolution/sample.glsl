@@ -1,8 +1,8 @@
-// Obscurance from the nearest texels of one level [Hoang and Low 2012, eq. 5-7]: the mean over samples of rho(|q-p|) times the
-// cosine between the normal and q-p. Samples below the surface or out of reach count as open, none is rejected.
-// Directed, a sample counts with the squared cosine, the share of a direction's hemisphere below its elevation [Dimitrov,
-// Horizon-Split Ambient Occlusion, eq. 6], one cosine as weight and one in the vector to it.
-// In: depth and packed normals of a level. The includer writes what comes out, in an area of the level.
+// Obscurance from the nearest texels of one level [Hoang and Low 2012, eq. 5-7]: the mean over samples q of rho(|q-p|) times the cosine
+// between the normal and q-p. Samples below the surface or out of reach count as open; none is rejected.
+// Directed, a sample has the squared cosine as weight, the fraction of a direction's hemisphere below its elevation [Dimitrov,
+// Horizon-Split Ambient Occlusion, eq. 6]: one cosine is the weight, the other is in the vector to the sample.
+// In: depth and packed normals of a level. The includer writes the result for an area of the level.
 #ifndef OBSCURA_MULTI_RESOLUTION_SAMPLE_GLSL
 #define OBSCURA_MULTI_RESOLUTION_SAMPLE_GLSL
 #include "ao/multi_resolution/levels.glsl"
@@ -16,15 +16,15 @@ layout(push_constant) uniform Constants {
     ivec2 size;        // of the level
     ivec2 origin, area;
     float texel;       // of the level, px
-    float reach;       // of samples over the falloff's projected reach
+    float reach;       // of samples, relative to the falloff's projected reach
     float maxRadius;   // texels
     float gain;
     uint disk;         // 16 points on a disk instead of every other texel of a square
-    uint side;         // of the tile whose pixels share out the samples; 1: each takes all
+    uint side;         // of the interleaving tile, px; 1: not interleaved
 };
 
-// Poisson disk of four turned points. At the paper's radius of 5 all fall on texels' middles, no two closer than 2; opposite
-// ones leave a plane in balance.
+// Poisson disk of four points, rotated by quarter turns. At the paper's radius of 5 all are at texel centres, at least 2 texels apart;
+// opposite pairs cancel on a plane.
 const vec2 kDisk[16] = vec2[](vec2(0.2, 0.2), vec2(-0.2, -0.2), vec2(-0.2, 0.2), vec2(0.2, -0.2),
                               vec2(0.8, 0.0), vec2(-0.8, 0.0), vec2(0.0, 0.8), vec2(0.0, -0.8),
                               vec2(0.8, 0.6), vec2(-0.8, -0.6), vec2(-0.6, 0.8), vec2(0.6, -0.8),
@@ -32,8 +32,8 @@ const vec2 kDisk[16] = vec2[](vec2(0.2, 0.2), vec2(-0.2, -0.2), vec2(-0.2, 0.2),
 
 struct Place {
     Surface surface;
-    vec2 ray, step;    // eye-space xy a metre away: at the texel, and how much further one texel is
-    vec2 scale;        // of xy with depth: (1, 0), orthographic (0, 1)
+    vec2 ray, step;    // eye-space xy at depth 1: of the texel, and per texel
+    vec2 scale;        // scale of xy = depth * x + y: (1, 0), orthographic (0, 1)
     ivec2 at;
 };
 
@@ -48,7 +48,7 @@ void tap(Place p, FalloffBlock rho, ivec2 last, ivec2 offset, inout vec3 sum, in
     count += inside ? 1.0 : 0.0;
 }
 
-// Sum over every `shares`th sample from `share` on, and how many they are. In: a pixel of the area. Out: its normal.
+// Sum over every `shares`th sample from `share` on. p: a pixel of the area. Out: the number of samples, the pixel's normal.
 vec3 sampled(ivec2 p, int share, int shares, out float count, out vec3 n) {
     View view = viewBlock;  // copies, so that the loops hold them in registers
     FalloffBlock rho = falloffBlock;

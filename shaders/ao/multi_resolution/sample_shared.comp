@@ -1,15 +1,15 @@
-// Samples of the finest level, shared out among the pixels of a tile; see sample.glsl. Out: parts for the shared gather, the obscurance
-// of a pixel's share and its weight.
+// Interleaved samples of the finest level; see sample.glsl. Out: for the shared gather, (obscurance sum, sample count) of each pixel's
+// share.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/tile.glsl"
 #include "sample.glsl"
-layout(set = 0, binding = 3, rg16f) uniform writeonly image2D parts;
+layout(set = 0, binding = 3, rg16f) uniform writeonly image2D shares;
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, area))) return;
     float count;
     vec3 n, sum = sampled(p, int(shareOf(viewBlock, p, side)), int(side * side), count, n);
-    imageStore(parts, p, vec4(along(sum, n), count, 0, 0));
+    imageStore(shares, p, vec4(along(sum, n), count, 0, 0));
 }

@@ -1,5 +1,4 @@
-// Joint bilateral upsampling and the joining of two levels [Hoang and Low 2012, fig. 9, eq. 8-10]; of combine.comp and
-// finish.comp, which differ in what they write.
+// Joint bilateral upsampling and combination of two levels [Hoang and Low 2012, fig. 9, eq. 8-10], for combine.comp and finish.comp.
 #include "ao/multi_resolution/levels.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
@@ -20,7 +19,7 @@ layout(push_constant) uniform Constants {
     float texel;                     // of the level, px
     float perTolerance;              // 1 / metres
     uint planes;
-    float samples;                   // gathered: that a tile's pixels took together
+    float samples;                   // GATHERED: total of a tile's pixels
 };
 
 #ifdef GATHERED
@@ -33,7 +32,7 @@ Obscurance ownOf(ivec2 p, vec3 n) { return unpackedOwn(imageLoad(near, p).x, n);
 #endif
 
 Obscurance combined(View view, ivec2 p, Surface here, Obscurance own) {
-    ivec2 at = origin + p, first = (at - 1) >> 1;  // of the four texels around
+    ivec2 at = origin + p, first = (at - 1) >> 1;  // of the four texels around p
     Obscurance far = Obscurance(vec3(0.0), vec3(0.0), 0.0);
     float weights = 0.0;
     for (int i = 0; i < 4; ++i) {

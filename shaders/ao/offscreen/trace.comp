@@ -1,4 +1,4 @@
-// Occluders that a screen-space method misses, from the window of bits.
+// Off-screen occluders from the dense volume.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define VOLUME_BINDING 2

@@ -1,4 +1,4 @@
-// Occluders that a screen-space method misses, from the window of bits, with depth layers.
+// Off-screen occluders from the dense volume, with depth layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define DEPTH_LAYERS

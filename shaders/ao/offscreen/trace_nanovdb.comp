@@ -1,4 +1,4 @@
-// Occluders that a screen-space method misses, from a NanoVDB grid.
+// Off-screen occluders from a NanoVDB grid.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define VOLUME_NANOVDB

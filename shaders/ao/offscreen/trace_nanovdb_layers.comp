@@ -1,4 +1,4 @@
-// Occluders that a screen-space method misses, from a NanoVDB grid, with depth layers.
+// Off-screen occluders from a NanoVDB grid, with depth layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define DEPTH_LAYERS

@@ -1,4 +1,4 @@
-// Along one axis nine pixels, two apart, that do not differ in depth [McGuire 2012, sec. 2.4].
+// Blur along one axis over nine pixels with a stride of 2 px, weighted by depth [McGuire 2012, sec. 2.4].
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/view.h"
@@ -13,8 +13,8 @@ layout(push_constant) uniform Constants {
 };
 
 const float kGauss[5] = float[](0.153170, 0.144893, 0.122649, 0.092902, 0.062970);
-const float kBase = 0.3;         // more blurriness for all but the pixel itself
-const float kSharpness = 2000.0 / 150.0;  // per radius of depth; published over a far plane at 300 m, here for a radius of 2 m
+const float kBase = 0.3;                  // added to the weight of all pixels but the centre
+const float kSharpness = 2000.0 / 150.0;  // per radius of depth difference; published for a far plane at 300 m and a radius of 2 m
 
 void main() {
     View view = viewBlock;  // a copy, so that the loop holds it in registers

@@ -1,4 +1,4 @@
-// Samples on a spiral around each pixel, far ones from coarser depths, each counted in closed form. See runtime/ao/methods/scalable.cpp.
+// Samples on a spiral around each pixel; distant ones read coarser depths. See runtime/ao/methods/scalable.cpp.
 // In: packed normals, depth and its coarser levels, guard band included. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -19,10 +19,10 @@ layout(push_constant) uniform Constants {
 };
 layout(constant_id = 0) const bool kQuads = true;
 
-const float kEpsilon = 0.0025;     // squared radii; lengths are published in metres, here they are those for a radius of 2 m
+// Lengths are published in metres; here they are in radii, converted for a radius of 2 m.
+const float kEpsilon = 0.0025;     // squared radii
+const float kSameDepth = 0.01;     // radii; largest depth difference of neighbours that are averaged
 const float kFinest = 3.0;         // log2 of px up to which level 0 is read
-
-const float kSameDepth = 0.01;     // radii between neighbours that are averaged
 
 shared vec2 quads[8][8];  // visibility and depth, of quads of 2x2
 
@@ -33,7 +33,7 @@ float visibilityAt(View view, ivec2 texel, float z) {
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     float reach = radius * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z);
     ivec2 p = texel - ivec2(view.guard);
-    float spin = float((3 * p.x ^ p.y + p.x * p.y) * 10 & 0xffff) + 6.28318531 * frameShift(view).x;  // radians: as good as random
+    float spin = float((3 * p.x ^ p.y + p.x * p.y) * 10 & 0xffff) + 6.28318531 * frameShift(view).x;  // radians, wrapped: a hash
     float sum = 0.0, part = 1.0 / float(samples);
     for (uint i = 0u;;) {
         float alpha = (float(i) + 0.5) * part, angle = alpha * float(turns) * 6.28318531 + spin, l = alpha * reach;
@@ -52,13 +52,13 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), own = ivec2(gl_LocalInvocationID.xy), last = ivec2(view.visible) - 1;
     ivec2 texel = min(p, last) + ivec2(view.guard);
     float z = imageLoad(depths, texel).x;
-    vec2 mine = vec2(isSky(view, z) ? 1.0 : visibilityAt(view, texel, z), z);
-    for (int axis = 0; axis < 2; ++axis) {  // the mean with the quad's neighbour, across and then down
-        quads[own.y][own.x] = mine;
+    vec2 result = vec2(isSky(view, z) ? 1.0 : visibilityAt(view, texel, z), z);
+    for (int axis = 0; axis < 2; ++axis) {  // mean with the neighbour in the 2x2 quad, horizontally, then vertically
+        quads[own.y][own.x] = result;
         barrier();
         vec2 other = quads[own.y ^ axis][own.x ^ (1 - axis)];
-        mine.x = kQuads && abs(other.y - mine.y) < kSameDepth * radius ? 0.5 * (mine.x + other.x) : mine.x;
+        result.x = kQuads && abs(other.y - result.y) < kSameDepth * radius ? 0.5 * (result.x + other.x) : result.x;
         barrier();
     }
-    if (all(lessThanEqual(p, last))) imageStore(visibility, p, vec4(min(mine.x, 1.0)));
+    if (all(lessThanEqual(p, last))) imageStore(visibility, p, vec4(min(result.x, 1.0)));
 }

@@ -1,4 +1,4 @@
-// Mean of 4x4 pixels: takes out the tile of noise, and edges with it.
+// Mean of 4x4 pixels: removes the 4x4 noise pattern and blurs edges.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,4 +1,4 @@
-// Point samples in the hemisphere above each pixel: those behind what the depth buffer shows are blocked. See runtime/ao/methods/ssao.cpp.
+// Point samples in the hemisphere above each pixel; points behind the depth buffer are blocked. See runtime/ao/methods/ssao.cpp.
 // In: linear depth, packed normals (guard band included), the kernel. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +14,7 @@ layout(set = 0, binding = 4, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Constants {
     uint samples;
     float radius;  // metres
-    float bias;    // metres that the depth buffer must be nearer
+    float bias;    // metres by which the depth buffer must be nearer than a point
 };
 
 void main() {
@@ -35,8 +35,8 @@ void main() {
     float blocked = 0.0;
     for (uint i = 0u;;) {
         vec3 k = kernel[i].xyz, s = here + t * k.x + b * k.y + n * k.z;
-        float depthOf = max(-s.z, 1e-3), zq = imageLoad(depth, clamp(ivec2(floor(pixelOf(view, vec3(s.xy, -depthOf)))), ivec2(0), last)).x;
-        blocked += zq <= depthOf - least ? smoothstep(0.0, 1.0, range / abs(z - zq)) : 0.0;
+        float pointDepth = max(-s.z, 1e-3), zq = imageLoad(depth, clamp(ivec2(floor(pixelOf(view, vec3(s.xy, -pointDepth)))), ivec2(0), last)).x;
+        blocked += zq <= pointDepth - least ? smoothstep(0.0, 1.0, range / abs(z - zq)) : 0.0;
         if (++i >= samples) break;
     }
     imageStore(visibility, p, vec4(1.0 - blocked / float(samples)));

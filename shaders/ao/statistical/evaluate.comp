@@ -1,5 +1,5 @@
-// Visibility from adaptive layers: mean height of each layer in each cell of the pixel's window [Hendrickx, eq. 5, alg. 2].
-// Of each pair of layers one has a table, the other is its parent's less that.
+// Visibility from adaptive layers: mean height of each layer in each cell of the pixel's window [Hendrickx, eq. 5, alg. 2]. Of each pair of
+// layers one has a table; the other is its parent's table minus that.
 // In: depth, normals, extent, tables (unused ones are bound to the root). Out: visibility, R16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -48,7 +48,7 @@ void main() {
     float reach = halfWindow(view, box, z) / float(box.texelSide);
     Axis x = axisOf(centre.x, reach, size.x), y = axisOf(centre.y, reach, size.y);
     uint pitch = size.x + 1u;
-    // One level after the other; each parent keeps what its nearer half leaves.
+    // Level by level: each parent becomes its farther half by subtracting its nearer one.
     mat4 furthest = sumRoot(0u, x, y, pitch), near, middle, far;  // sums of up to four layers
     vec4 count = counts(furthest), blocked = vec4(0.0);
     if (layers >= 2u) {

@@ -1,4 +1,4 @@
-// What the whole frame spans, of what its blocks span; by one workgroup.
+// Extent of the whole frame from the extents of its blocks; one workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/statistical/fixed_point.h"
@@ -12,15 +12,15 @@ shared uint nearestInverted, furthest, coordinate;
 void main() {
     if (gl_LocalInvocationIndex == 0u) nearestInverted = furthest = coordinate = 0u;
     barrier();
-    Extent mine = Extent(0u, 0u, 0u, 0u);
+    Extent own = Extent(0u, 0u, 0u, 0u);
     for (uint i = gl_LocalInvocationIndex; i < count; i += 64u) {
-        mine.nearestInverted = max(mine.nearestInverted, blocks[i].nearestInverted);
-        mine.furthest = max(mine.furthest, blocks[i].furthest);
-        mine.coordinate = max(mine.coordinate, blocks[i].coordinate);
+        own.nearestInverted = max(own.nearestInverted, blocks[i].nearestInverted);
+        own.furthest = max(own.furthest, blocks[i].furthest);
+        own.coordinate = max(own.coordinate, blocks[i].coordinate);
     }
-    atomicMax(nearestInverted, mine.nearestInverted);
-    atomicMax(furthest, mine.furthest);
-    atomicMax(coordinate, mine.coordinate);
+    atomicMax(nearestInverted, own.nearestInverted);
+    atomicMax(furthest, own.furthest);
+    atomicMax(coordinate, own.coordinate);
     barrier();
     if (gl_LocalInvocationIndex == 0u) whole = Extent(nearestInverted, furthest, coordinate, 0u);
 }

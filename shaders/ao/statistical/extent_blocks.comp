@@ -1,4 +1,4 @@
-// What a block of the frame spans: nearest and furthest depth, largest coordinate. In: linear depth. Out: an Extent a block.
+// Extent of each block of the frame: nearest and furthest depth, largest coordinate. In: linear depth. Out: one Extent per block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/statistical/fixed_point.h"

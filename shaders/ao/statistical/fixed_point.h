@@ -1,8 +1,8 @@
-// The frame's fixed point: how many units a metre has, so that no window's sum leaves 32 bits.
+// Fixed point of the frame: units per metre, chosen so that no window's sum exceeds 32 bits.
 //
-// A window has at most N pixels, a coordinate's magnitude is at most M, and rounding adds at most one unit, so a sum is at
-// most N (M units + 1). That is kept below 2^31. N is a square around the pixel nearest to the camera, whole texels of the
-// table on all sides included. Units are a power of two, so that a camera's small step leaves them as they are.
+// A window has at most N pixels, the magnitude of a coordinate is at most M, and rounding adds at most one unit, so a sum is at most N (M
+// units + 1), which is kept below 2^31. N is the window of the pixel nearest to the camera plus one table texel on each side. Units are a
+// power of two, so that small camera movements do not change them.
 #ifndef OBSCURA_STATISTICAL_FIXED_POINT_H
 #define OBSCURA_STATISTICAL_FIXED_POINT_H
 #include "shared/types.h"
@@ -21,7 +21,7 @@ OBSCURA_SHARED_END
 #ifndef __cplusplus
 #include "shared/view.h"
 
-// Of all pixels that are not sky, as bits of floats; all zero where there are none.
+// Over all pixels that are not sky, as bits of floats; all 0 if all are sky.
 struct Extent {
     uint nearestInverted;  // ~nearest linear depth
     uint furthest;         // linear depth
@@ -31,12 +31,13 @@ struct Extent {
 
 float nearestDepth(Extent e) { return uintBitsToFloat(~e.nearestInverted); }
 
-float halfWidth(View view, Box box, float depth) { return box.halfWidth * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : depth); }  // px
+// Half the box's width, px.
+float halfWidth(View view, Box box, float depth) { return box.halfWidth * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : depth); }
 
 // Half the window's side, px.
 float halfWindow(View view, Box box, float depth) { return clamp(halfWidth(view, box, depth), 1.0, box.largest); }
 
-// Height of the box, metres: a box too wide for its window shrinks and keeps its shape.
+// Height of the box, metres: a box wider than its window is scaled down to it.
 float boxHeight(View view, Box box, float depth) { return box.height * min(box.largest / halfWidth(view, box, depth), 1.0); }
 
 const float kMostUnits = 1048576.0;  // a metre

@@ -1,6 +1,6 @@
-// Which layer a texel belongs to, one more bit a level [Hendrickx, sec. 5, alg. 1]: set where it lies before the mean depth
-// of its own layer over its own window. Or, at level 0, the number of its uniform layer [sec. 4].
-// In: texels, codes so far, the tables of the layers so far (unused ones are bound to the root). Out: codes.
+// Layer of each texel, one bit per level [Hendrickx, sec. 5, alg. 1]: set if the texel is nearer than the mean depth of its layer over its
+// window. At level 0: the number of its uniform layer [sec. 4].
+// In: texels, codes and tables of the previous levels (unused ones are bound to the root). Out: codes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/statistical/fixed_point.h"
@@ -38,7 +38,7 @@ void main() {
         return;
     }
 
-    // Whole texels: a share of a texel at the window's edge cannot change what lies clearly before or behind.
+    // Whole texels: fractions of texels at the window's edge do not matter for the split.
     float reach = halfWindow(view, box, d / units) / float(box.texelSide);
     ivec2 low = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 - reach)), ivec2(0), ivec2(t));
     ivec2 high = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 + reach)), ivec2(t) + 1, ivec2(size));
@@ -56,6 +56,6 @@ void main() {
         uvec2 nearer = WINDOW(second, 2u, branch);
         sum = (code & 2u) != 0u ? nearer : sum - nearer;
     }
-    bool before = d < -float(int(sum.x)) / float(int(sum.y));  // its own texel is in the sum, so there is a mean
-    codes[at] = code | (before ? 1u << (level - 1u) : 0u);
+    bool isNearer = d < -float(int(sum.x)) / float(int(sum.y));  // the sum contains the texel itself, so it is not empty
+    codes[at] = code | (isNearer ? 1u << (level - 1u) : 0u);
 }

@@ -1,5 +1,5 @@
-// Volumetric obscurance of the same box by samples [Loos 2010], what the statistics stand for. Points: blocked or not at a
-// height of their own. Lines: the blocked part of a line along the normal. Positions fill the window evenly.
+// Volumetric obscurance of the same box by samples [Loos 2010], for comparison. Points: blocked or not, each at its own height. Lines: the
+// blocked fraction of a line along the normal. Positions fill the window evenly.
 // In: linear depth, packed normals. Out: visibility, R16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -32,7 +32,7 @@ void main() {
     vec3 n = unpackNormal(imageLoad(normals, texel).x);
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     float reach = halfWindow(view, box, z), height = boxHeight(view, box, z), blocked = 0.0, count = 0.0;
-    // Few lines differ from pixel to pixel over a 4x4 tile, for a blur to gather; many points need no such thing.
+    // Lines are few, so they are shifted from pixel to pixel over a 4x4 tile and blurred; points are many and are not.
     float shift = lines != 0u ? float(bayer16(uvec2(p))) * float(samples) : 0.0;
     for (uint i = 0u; i < samples; ++i) {
         vec2 at = pixel + (2.0 * fract(0.5 + (float(i) + shift) * kNext) - 1.0) * reach;

@@ -1,5 +1,5 @@
 // Downsampling: texel = (sum x, sum y, sum z, count) over its pixels that are not sky, in fixed point [Hendrickx, sec. 7.1].
-// Sums, never averages, so that counts stay exact. In: linear depth, the frame's extent. Out: texels.
+// Sums, not means, so that counts stay exact. In: linear depth, the frame's extent. Out: texels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/statistical/fixed_point.h"

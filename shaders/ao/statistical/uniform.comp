@@ -1,6 +1,6 @@
-// Visibility from uniform layers, two of them at a time [Hendrickx, sec. 4, eq. 5]: what the adaptive ones are compared with.
-// In: depth, normals, extent, the root table and that of two layers. In and out: blocked counts so far, a cell each. Out, with
-// the last two: visibility, R16F.
+// Visibility from uniform layers, two at a time [Hendrickx, sec. 4, eq. 5], for comparison with adaptive ones.
+// In: depth, normals, extent, the root table and that of two layers. In and out: accumulated blocked counts, one component per cell. Out,
+// in the last pass: visibility, R16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/statistical/fixed_point.h"

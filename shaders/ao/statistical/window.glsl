@@ -1,14 +1,14 @@
 // Sums over a pixel's window, cut into one cell or four quadrants, from a summed-area table.
 //
-// The window's edges lie anywhere: interpolating the exclusive table between its entries is the exact integral of the image
-// of constant texels. Sums are differences of entries against the window's first row and column, taken as integers modulo
-// 2^32, where they are exact, and only then made floats and weighed.
+// Window edges are at any position: interpolating the exclusive table between its entries is the exact integral of an image of constant
+// texels. Differences of entries against the window's first row and column are exact as integers modulo 2^32; they are converted to float
+// only for interpolation.
 #ifndef OBSCURA_STATISTICAL_WINDOW_GLSL
 #define OBSCURA_STATISTICAL_WINDOW_GLSL
 
 layout(constant_id = 0) const uint split = 2;  // cells along each side of a window: 1 or 2
 
-// Table lines before and behind each edge, and where between the two the edge is.
+// Table lines before and behind each edge, and the edge's fraction between the two.
 struct Axis {
     uint a0, b0, a1, b1, a2, b2;
     float part0, part1, part2;
@@ -17,20 +17,19 @@ struct Axis {
 
 Axis axisOf(float centre, float reach, uint size) {
     vec3 edges = clamp(centre + reach * vec3(-1.0, split == 2u ? 0.0 : 1.0, 1.0), 0.0, float(size));
-    ivec3 whole = min(ivec3(edges), int(size) - 1);  // signed: what processors convert fast
+    ivec3 whole = min(ivec3(edges), int(size) - 1);  // signed conversion is faster on CPUs
     vec3 part = edges - vec3(whole);
     uvec3 lines = uvec3(whole);
     return Axis(lines.x, lines.x + 1u, lines.y, lines.y + 1u, lines.z, lines.z + 1u, part.x, part.y, part.z, edges.yz - edges.xy);
 }
 
-// Along one table line, the sums above it of the left and the right cells.
+// Sums above one table line, of the left and the right cells.
 struct Halves { vec4 left, right; };
 
 Halves mix(Halves a, Halves b, float t) { return Halves(mix(a.left, b.left, t), mix(a.right, b.right, t)); }
 
-// mat4 NAME(layer, x, y, pitch): cells of layer `layer` as columns, rows of cells after each other; of a buffer `table` whose
-// entries hold `layers` and whose rows hold `pitch` entries. Written out, because compilers that leave loops alone would keep
-// the arrays in memory.
+// mat4 NAME(layer, x, y, pitch): sums of the cells of layer `layer`, one per column, row by row, from a buffer `table` with `layers` layers
+// per entry and `pitch` entries per row. Unrolled by hand, because compilers that do not unroll loops would keep the arrays in memory.
 #define WINDOW_SUMS(NAME, table, layers)                                                                                 \
 Halves NAME##Line(uint row, uint layer, Axis x, uvec4 top[6]) {                                                          \
     uvec4 left = table[(row + x.a0) * layers + layer];                                                                   \
@@ -59,32 +58,33 @@ mat4 NAME(uint layer, Axis x, Axis y, uint pitch) {                             
     return mat4(edge1.left - edge0.left, edge1.right - edge0.right, edge2.left - edge1.left, edge2.right - edge1.right); \
 }
 
-// How much of a pixel's cells is blocked.
+// The box of a pixel.
 struct Shape {
     vec3 here, n;     // of the pixel
-    float metres;     // a unit
+    float metres;     // per unit
     float height;     // of the box, metres
     float slope;
 };
 
-// Full at 1, gone at 1 + 1 / slope [Hendrickx, sec. 3.3].
+// Blocked fraction of a box by mean height: 1 at 1, 0 from 1 + 1 / slope on [Hendrickx, sec. 3.3].
 vec4 psi(vec4 x, float slope) { return max(vec4(0.0), min(x, 1.0 + slope - slope * x)); }
 
 vec4 counts(mat4 sums) { return vec4(sums[0].w, sums[1].w, sums[2].w, sums[3].w); }
 
-// One layer's share, a component a cell: its mean height above the tangent plane, as a part of the box, times its count
-// [Hendrickx, eq. 6, 7].
+// Blocked count of one layer, one component per cell: psi of its mean height above the tangent plane, times its count [Hendrickx, eq. 6,
+// 7].
 vec4 blockedBy(mat4 sums, Shape s) {
     vec4 count = counts(sums);
     vec4 height = vec4(s.n * s.metres, 0.0) * sums / max(count, 0.25) - dot(s.here, s.n);
-    return mix(vec4(0.0), psi(height / s.height, s.slope) * count, greaterThanEqual(count, vec4(0.25)));  // less is what fractions leave of nothing
+    // Counts below 0.25 are rounding of an empty cell.
+    return mix(vec4(0.0), psi(height / s.height, s.slope) * count, greaterThanEqual(count, vec4(0.25)));
 }
 
-// Mean over the cells, each its share of what it counts; the frame's edge leaves some empty.
+// Mean over the non-empty cells of blocked / count; cells can be empty at the frame's edge.
 float meanOfCells(vec4 blocked, vec4 count, Axis x, Axis y) {
-    vec4 there = vec4(greaterThan(vec4(x.width.xyxy * y.width.xxyy), vec4(0.0)));
-    if (split == 1u) there = vec4(1.0, 0.0, 0.0, 0.0);
-    return dot(blocked / max(count, 0.25), there) / max(dot(there, vec4(1.0)), 1.0);
+    vec4 nonEmpty = vec4(greaterThan(vec4(x.width.xyxy * y.width.xxyy), vec4(0.0)));
+    if (split == 1u) nonEmpty = vec4(1.0, 0.0, 0.0, 0.0);
+    return dot(blocked / max(count, 0.25), nonEmpty) / max(dot(nonEmpty, vec4(1.0)), 1.0);
 }
 
 #endif

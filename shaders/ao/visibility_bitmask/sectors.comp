@@ -1,4 +1,4 @@
-// A bit for each of 32 sectors of every slice of the hemisphere: samples of a constant thickness cover some. Formulas in
+// Visibility bitmask: a bit for each of 32 sectors of every slice of the hemisphere; samples of constant thickness set bits. Formulas:
 // runtime/ao/methods/visibility_bitmask.cpp. In and out: ao/common/slice.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,9 +10,9 @@ layout(push_constant) uniform Constants {
     uint steps;       // a side
     float thickness;  // metres
     float mipOffset;  // log2 of px up to which level 0 is read
-    uint rayAxis;     // slices lie evenly 0: on the screen, 1: around the view ray
+    uint rayAxis;     // slices are evenly spaced 0: on the screen, 1: around the view ray
 };
-layout(constant_id = 0) const bool kCosine = false;  // sectors are of equal weight instead of equal angle
+layout(constant_id = 0) const bool kCosine = false;  // sectors have equal weight instead of equal angle
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
@@ -27,19 +27,19 @@ void main() {
         Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(slices), rayAxis != 0u);
         float no = dot(r.n, slice.across), projected = sqrt(max(no * no + r.nv * r.nv, 1e-12)), sine = no / projected;
         float gamma = sign(no) * arcCosine(r.nv / projected);
-        // Where the hemisphere ends to both sides, and how much of it lies there.
+        // Cosines of the hemisphere's edges on both sides, and the integral of each side.
         vec2 low = vec2(-sine, sine), whole = vec2(sliceArc(r.nv, no, low.x), sliceArc(r.nv, -no, low.y));
         float perSector = 32.0 / max(whole.x + whole.y, 1e-6), sum = 0.0;
         uint covered = 0u;
         for (uint i = 0u;;) {
-            float t = placeOf(r, k, i, steps), l = t * t * r.radius + kTooClose;
+            float t = samplePlace(r, k, i, steps), l = t * t * r.radius + kTooClose;
             int level = levelAt(l, mipOffset);
             vec2 offset = floor(l * slice.along + 0.5);
             for (int side = 0; side < 2; ++side) {
-                vec3 d = towards(view, r, side == 0 ? r.pixel + offset : r.pixel - offset, level), b = d - thick * r.v;
+                vec3 d = toSurface(view, r, side == 0 ? r.pixel + offset : r.pixel - offset, level), b = d - thick * r.v;
                 float inverse = inversesqrt(max(dot(d, d), 1e-20)), weight = falloff(rho, dot(d, d) * inverse);
                 float front = dot(d, r.v) * inverse, back = dot(b, r.v) * inversesqrt(max(dot(b, b), 1e-20));
-                ivec2 sectors;  // from one to before the other, counted from the far end of side 1
+                ivec2 sectors;  // first sector and end, counted from the edge of side 1
                 if (kCosine) {
                     float o = side == 0 ? no : -no;
                     vec2 arcs = vec2(sliceArc(r.nv, o, max(front, low[side])), sliceArc(r.nv, o, max(back, low[side])));
@@ -50,7 +50,7 @@ void main() {
                     sectors = ivec2(place.x) + ivec2(0, ceil(place.y - place.x));
                 }
                 sectors = min(sectors, ivec2(31, 32));
-                bool counts = weight > 0.0 && (!kCosine || dot(d, r.n) * inverse > 0.001);  // texels of the pixel's own plane cover nothing
+                bool counts = weight > 0.0 && (!kCosine || dot(d, r.n) * inverse > 0.001);  // samples in the tangent plane cover nothing
                 uint bits = counts ? bitfieldInsert(0u, ~0u, sectors.x, max(sectors.y - sectors.x, 0)) & ~covered : 0u;
                 covered |= bits;
                 sum += weight * float(bitCount(bits));

@@ -1,5 +1,5 @@
-// Line samples through a ball around each pixel: the part of each that lies behind the depth buffer is occupied. See
-// runtime/ao/methods/volumetric.cpp. In: linear depth, packed normals, guard band included. Out: visibility.
+// Line samples through a ball around each pixel; a line is occupied behind the depth buffer. See runtime/ao/methods/volumetric.cpp.
+// In: linear depth, packed normals, guard band included. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/tile.glsl"
@@ -13,12 +13,12 @@ layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Constants {
     uint lines;
     float radius;     // metres, of the ball
-    float thickness;  // metres, of what the depth buffer shows
-    uint solid;       // 0: the ball around the pixel, 1: its half above the tangent plane, 2: the ball that touches that plane there
+    float thickness;  // metres, of all surfaces
+    uint solid;       // 0: ball around the pixel, 1: its half above the tangent plane, 2: ball that touches the tangent plane at the pixel
 };
 
-// Along a ray, of what a texel covers, from the centre's depth on: rays widen by `widens` a metre (not for
-// the whole ball: its halves would differ).
+// Volume along a texel's ray from the centre's depth to g metres behind it. The texel's width grows by `widens` per metre (0 for the whole
+// ball, whose halves must be equal).
 float volume(float g, float widens) {
     float x = g * widens;
     return g * (1.0 + x + x * x / 3.0);
@@ -38,27 +38,27 @@ void main() {
     vec3 here = eyePosition(view, vec2(texel) + 0.5, z), n = unpackNormal(imageLoad(normals, texel).x);
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     vec3 centre = solid == 2u ? here + r * n : here;
-    float depthOf = -centre.z;
-    bool half_ = solid == 1u, orthographic = view.orthographic > 0.5;
+    float centreDepth = -centre.z;
+    bool halfBall = solid == 1u, orthographic = view.orthographic > 0.5;
     float scale = view.pixelsPerMetre / (orthographic ? 1.0 : max(-centre.z, 0.05 * z)) * r;  // px of the radius
-    vec2 middle = solid == 2u ? pixelOf(view, vec3(centre.xy, min(centre.z, -0.05 * z))) : vec2(texel) + 0.5;
-    float widens = orthographic || solid == 0u ? 0.0 : 1.0 / max(depthOf, 0.05 * z);
+    vec2 centrePixel = solid == 2u ? pixelOf(view, vec3(centre.xy, min(centre.z, -0.05 * z))) : vec2(texel) + 0.5;
+    float widens = orthographic || solid == 0u ? 0.0 : 1.0 / max(centreDepth, 0.05 * z);
     float turn = 6.28318531 * fract((float(bayer16(uvec2(p))) + 0.5) / 16.0 + frameShift(view).x);
     float whole = 0.0, occupied = 0.0;
     for (uint i = 0u;;) {
         float angle = turn + 2.39996323 * float(i);
-        vec2 at = middle + scale * sqrt((float(i) + 0.5) / float(lines)) * vec2(cos(angle), sin(angle));
+        vec2 at = centrePixel + scale * sqrt((float(i) + 0.5) / float(lines)) * vec2(cos(angle), sin(angle));
         ivec2 q = clamp(ivec2(floor(at)), ivec2(0), last);
-        // The view ray through the texel: points from + g along from the centre, g their depth less the centre's. It is in the ball from
-        // g0 to g1.
+        // The texel's view ray relative to the centre: points from + g along, with g the depth behind the centre. It is in the ball from g0
+        // to g1.
         vec2 ray = (vec2(q) + 0.5) * view.unproject.xy + view.unproject.zw;
-        vec3 from = vec3(ray * (orthographic ? 1.0 : depthOf) - centre.xy, 0.0), along = vec3(orthographic ? vec2(0.0) : ray, -1.0);
+        vec3 from = vec3(ray * (orthographic ? 1.0 : centreDepth) - centre.xy, 0.0), along = vec3(orthographic ? vec2(0.0) : ray, -1.0);
         float a = dot(along, along), b = dot(from, along), inside = b * b - a * (dot(from, from) - r * r), root = sqrt(max(inside, 0.0));
         float g0 = (-b - root) / a, g1 = (-b + root) / a;
         float speed = dot(n, along), plane = dot(n, here - centre - from) / (abs(speed) > 1e-6 ? speed : 1e-6);
-        g1 = half_ && speed < 0.0 ? min(g1, plane) : g1;
-        g0 = half_ && speed >= 0.0 ? max(g0, plane) : g0;
-        float gq = imageLoad(depth, q).x - depthOf, weight = inside > 0.0 && g1 > g0 ? 1.0 : 0.0;
+        g1 = halfBall && speed < 0.0 ? min(g1, plane) : g1;
+        g0 = halfBall && speed >= 0.0 ? max(g0, plane) : g0;
+        float gq = imageLoad(depth, q).x - centreDepth, weight = inside > 0.0 && g1 > g0 ? 1.0 : 0.0;
         whole += weight * (volume(g1, widens) - volume(g0, widens));
         occupied += weight * max(volume(min(g1, gq + thick), widens) - volume(max(g0, gq), widens), 0.0);
         if (++i >= lines) break;

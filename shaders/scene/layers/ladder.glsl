@@ -1,6 +1,6 @@
-// The three nearest hits behind the visible one, in one pass: each hit climbs down a ladder of atomic maxima, and what it
-// finds farther than itself it carries on in its stead. The order of arrival does not show. The depth test lets only
-// through what lies behind the visible surface.
+// The three nearest hits behind the visible surface, in one geometry pass. Each hit is inserted into a sorted list of three images by
+// atomic maxima: where it replaces a farther hit, that one moves on to the next image. The result does not depend on the order of
+// fragments. The depth test passes only fragments behind the visible surface.
 #include "scene/face.glsl"
 #include "scene/layers/hit.glsl"
 
@@ -11,11 +11,11 @@ layout(set = 0, binding = 4, r32ui) uniform uimage2D fourth;
 
 layout(location = 0) flat in float inShell;
 
-void climb() {
+void insertHit() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     uint hit = hitOf(gl_FragCoord.z, faceOf(inShell));
     uint found = imageAtomicMax(second, p, hit);
-    hit = found == hit ? 0u : min(hit, found);  // the same hit again is no other one
+    hit = found == hit ? 0u : min(hit, found);  // a duplicate is dropped
     if (hit != 0u) {
         found = imageAtomicMax(third, p, hit);
         hit = found == hit ? 0u : min(hit, found);

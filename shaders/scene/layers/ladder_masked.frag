@@ -1,4 +1,4 @@
-// The hits behind the visible one, sorted as they come, holes left out.
+// ladder.frag with the alpha test of masked surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/layers/ladder.glsl"
@@ -9,5 +9,5 @@ layout(location = 2) in float inAlpha;
 
 void main() {
     if (baseColorOf(inUv, vec4(1.0, 1.0, 1.0, inAlpha)).a < material.emission.w) return;
-    climb();
+    insertHit();
 }

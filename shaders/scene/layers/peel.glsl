@@ -1,11 +1,12 @@
-// Depth peeling [Everitt 2001]: of what lies behind the hit before, the depth test keeps the nearest.
+// Depth peeling [Everitt 2001]: of the fragments behind the previous hit, the depth test keeps the nearest.
 #include "scene/face.glsl"
 #include "scene/layers/hit.glsl"
 
-layout(set = 0, binding = 2) uniform sampler2D before;  // device depth of the hit before; with WHOLE_HITS, of those peeled, the hit itself
+// Device depth of the previous hit; with WHOLE_HITS, from the second peel on, the hit's bits as a float.
+layout(set = 0, binding = 2) uniform sampler2D before;
 
 #ifdef WHOLE_HITS
-layout(constant_id = 0) const bool behindVisible = true;  // the first to be peeled
+layout(constant_id = 0) const bool behindVisible = true;  // first peel: the previous hit is the visible one
 #endif
 
 layout(location = 0) flat in float inShell;
@@ -15,10 +16,10 @@ void peel() {
     float last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).x;
     outHit = hitOf(gl_FragCoord.z, faceOf(inShell));
 #ifdef WHOLE_HITS
-    // Hits are told apart and sorted as the ladder has them, face and all, so that both forms see the same to the bit.
+    // Sorts by the hit's bits, face included, as the ladder does, so that both forms give the same images to the bit.
     gl_FragDepth = uintBitsToFloat(outHit);
     if (behindVisible ? gl_FragCoord.z >= last : gl_FragDepth >= last) discard;
 #else
-    if (gl_FragCoord.z >= last) discard;  // the same surface has the same depth to the bit
+    if (gl_FragCoord.z >= last) discard;  // a surface has the same depth to the bit in every pass
 #endif
 }

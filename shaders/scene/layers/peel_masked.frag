@@ -1,4 +1,4 @@
-// The next hit behind one already known, holes left out.
+// peel.frag with the alpha test of masked surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/layers/peel.glsl"

@@ -1,4 +1,4 @@
-// The next hit behind one already known, of several, holes left out.
+// peel_on.frag with the alpha test of masked surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WHOLE_HITS

@@ -1,4 +1,4 @@
-// Where a surface is, and of which solid.
+// Vertices of depth layers: position and shell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/placed.glsl"

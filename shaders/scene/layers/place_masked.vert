@@ -1,4 +1,4 @@
-// place.vert for surfaces whose texture has holes.
+// place.vert for alpha-masked surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/placed.glsl"

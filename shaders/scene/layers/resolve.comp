@@ -1,7 +1,6 @@
-// Hits in order -> depth layers, by a rule that open, nested and badly wound meshes need: what begins at a front face ends at
-// the next hit when that is a back face; when another solid begins before, at the next hit of its own if that is a back face.
-// Else, or where the first hit is no front face, it is a sheet without thickness, and the next layer starts at the next hit.
-// Units and codes: obscura/ao.h, DepthLayers.
+// Sorted hits to depth layers, tolerating open, nested and badly wound meshes. A layer that starts at a front face ends at the next hit if
+// that is a back face; else at the next hit of the same solid, if that is a back face. Otherwise, or if it does not start at a front face,
+// it is a sheet of thickness 0. The next layer starts at the next hit. Units and special values: obscura/ao.h, DepthLayers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/frame.h"
@@ -16,20 +15,20 @@ layout(set = 0, binding = 5) uniform usampler2D fourthHits;
 layout(set = 0, binding = 6, r16f) uniform writeonly image2D thickness;
 layout(set = 0, binding = 7, rg32f) uniform writeonly image2D second;
 layout(push_constant) uniform Constants {
-    uint hits;     // behind the visible one: 1 or 3
-    uint asked;    // 0: no second layer; 1: of every pixel; 2: of every other one
+    uint hits;          // number of hits behind the visible one: 1 or 3
+    uint secondLayer;   // 0: none; 1: at every pixel; 2: at every second pixel in x and y
 };
 
 const float kEndless = 65504.0, kThinnest = 1e-4;  // of solids, metres: 0 would be a sheet
-const float kTouching = 1e-4;  // of the depth: what begins so little before a solid ends stands at it, not in it
+const float kTouching = 1e-4;  // fraction of depth: a hit this close before a solid's end touches the solid from outside
 
-// The first four hits, `count` of them there.
+// The first four hits; `count` are valid.
 float z[4];
 uint face[4];
 int count = 1;
 
 uint sideOf(int i) { return face[i] & 3u; }
-// The hit at which what begins at hit i ends; 0: none, it is a sheet.
+// The hit where the layer that starts at hit i ends; 0: none, a sheet.
 int endOf(int i) {
     if (sideOf(i) != kFront || i + 1 >= count) return 0;
     if (sideOf(i + 1) == kBack) return i + 1;
@@ -58,11 +57,11 @@ void main() {
         if (z[k] > z[end] * (1.0 - kTouching)) next = k;
     imageStore(thickness, p, vec4(d <= 0.0 ? kEndless : end > 0 ? clamp(z[end] - z[0], kThinnest, kEndless) : 0.0));
 
-    if (asked == 0u || (asked == 2u && ((p.x | p.y) & 1) != 0)) return;
+    if (secondLayer == 0u || (secondLayer == 2u && ((p.x | p.y) & 1) != 0)) return;
     vec2 result = vec2(0.0);
     if (next < count) {
         int last = endOf(next);
         result = vec2(z[next], last > 0 ? max(z[last] - z[next], kThinnest) : 0.0);
     }
-    imageStore(second, asked == 2u ? p >> 1 : p, vec4(result, 0.0, 0.0));
+    imageStore(second, secondLayer == 2u ? p >> 1 : p, vec4(result, 0.0, 0.0));
 }

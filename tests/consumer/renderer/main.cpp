@@ -1,5 +1,5 @@
-// renderer [FOLDER]: frames of every kind of method at two sizes, and a check of each picture: open floor is open, the crease below
-// the wall is not. Writes the pictures to FOLDER, METHOD-WIDTHxHEIGHT.pgm.
+// renderer [FOLDER]: renders several methods at two sizes and checks each image: the floor is open, the crease below the wall is
+// dark. Writes the images to FOLDER as METHOD-WIDTHxHEIGHT.pgm.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace {
 
-bool good = true;
+bool passed = true;
 
 void expect(bool condition, const char* what, const char* method) {
     if (!condition) std::printf("WRONG: %s: %s\n", method, what);
-    good = good && condition;
+    passed = passed && condition;
 }
 
-// Means over the pixels that look at the sky, at the floor within 40 cm of the wall, and at the floor more than 1.5 m from wall and box.
+// Mean visibility of the sky, of the floor within 40 cm of the wall, and of the floor more than 1.5 m from wall and box.
 void look(const Renderer& renderer, const std::vector<uint8_t>& picture, const char* method) {
     struct { double sum = 0.0; unsigned count = 0; double mean() const { return sum / count; } void add(double v) { sum += v, ++count; } } sky, crease, open;
     for (uint32_t y = 0; y < renderer.size.height; ++y)
@@ -69,5 +69,5 @@ int main(int argc, char** argv) {
         expect(!obscurance.use("no such method"), "an unknown method is taken", "setMethod");
     }
     expect(renderer.validationMessages == 0, "validation has something to say", "Vulkan");
-    return good ? 0 : 1;
+    return passed ? 0 : 1;
 }

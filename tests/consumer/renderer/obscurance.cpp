@@ -1,3 +1,4 @@
+// Integration of Obscura into the renderer: creates the context, describes its frames, records.
 #include "obscurance.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The renderer's obscurance, by Obscura.
+// Integration of Obscura into the renderer.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -10,10 +10,10 @@ namespace obscura::ao { struct Context; }
 class Obscurance {
 public:
     explicit Obscurance(const Renderer& renderer);
-    ~Obscurance();                         // the GPU is done
-    bool use(const char* method);          // false: no such method, and a line said so
+    ~Obscurance();                         // the GPU must be idle
+    bool use(const char* method);          // false: unknown method, logged
     struct Picture { VkImage image; VkImageLayout layout; };
-    // Visibility of the renderer's depth, 8 bits a pixel; null where something went wrong.
+    // Visibility of the renderer's depth, 8 bits a pixel; null on failure.
     Picture record(VkCommandBuffer cmd, const Renderer& renderer);
 
 private:

@@ -1,3 +1,4 @@
+// A small renderer in raw Vulkan: device, command buffers, an analytic depth buffer, read-back.
 #include "renderer.h"
 
 #include <algorithm>
@@ -117,7 +118,7 @@ void Renderer::createDevice() {
 
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queueFamily, 1, &priority};
-    // What the library asks of a device: README, "Into your renderer", step 2.
+    // Features that the library requires: README, "Into your renderer", step 2.
     VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     v13.synchronization2 = v13.maintenance4 = VK_TRUE;
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v13};

@@ -1,5 +1,5 @@
-// A small renderer in raw Vulkan that has never heard of obscurance: an instance and a device of its own under validation, two
-// frames in flight, a depth buffer of a room with a box in it. Errors end the program: it is a demonstration.
+// A small renderer in raw Vulkan, independent of Obscura: its own instance and device under validation, two frames in flight,
+// a depth buffer of a room with a box. Errors end the program.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <vulkan/vulkan.h>
 
 struct Camera {
-    float projection[16];       // columns; reversed depth, infinite far plane, y down: one of the usual ways
+    float projection[16];       // by columns; reversed depth, infinite far plane, y down
     float near = 0.1f;
 };
 
@@ -18,10 +18,10 @@ public:
     Renderer();
     ~Renderer();
     void resize(uint32_t width, uint32_t height);
-    // begin() waits until the GPU is done with what it recorded kFrames frames ago; end() takes the picture along and submits.
+    // begin() waits for the frame recorded kFrames frames ago; end() copies the image for read-back and submits.
     VkCommandBuffer begin();
     void end(VkImage picture, VkImageLayout layout, uint32_t bytesPerPixel);
-    std::vector<uint8_t> wait();  // for everything; the newest picture, tightly packed
+    std::vector<uint8_t> wait();  // until the GPU is idle; returns the newest image, tightly packed
 
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;

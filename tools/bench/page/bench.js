@@ -1,4 +1,4 @@
-// The benchmark's page: one state, and functions that draw each part of the page from it.
+// The benchmark's page: one state object, and functions that draw each section from it.
 (() => {
 const data = JSON.parse($("data").textContent);
 const state = {falloff: "", reference: "", size: "", names: true, hidden: new Set(), marked: "", axis: "", sort: "median", descending: false, filter: "", row: -1};
@@ -7,7 +7,7 @@ const sizeOf = r => r.size ? r.size.join("x") : `${r.width}x${r.height}`;
 const methods = unique(data.rows.map(r => r.method));
 const colour = id => `var(--c${(1 + methods.indexOf(id)) % 10})`;
 const errorOf = (row, kind) => row.errors.find(e => e.reference === kind);
-const ours = row => !row.yardstick;
+const ours = row => !row.baseline;
 const megabytes = bytes => (bytes * 1e-6).toFixed(1);
 
 // ---- marks and their tip ----
@@ -23,15 +23,15 @@ function mark(row, x, y, radius = 5.5) {
 }
 function tellOf(row) {
   const errors = row.errors.map(e => `eA ${fixed(e.eA, 4)} ${e.reference}`).join(", ");
-  return [`${row.label}${row.yardstick ? " (yardstick)" : ""}`, `${milliseconds(row.milliseconds.median)} ms, 95 % within ${milliseconds(row.milliseconds.p95)} ms`,
+  return [`${row.label}${row.baseline ? " (baseline)" : ""}`, `${milliseconds(row.milliseconds.median)} ms, 95 % within ${milliseconds(row.milliseconds.p95)} ms`,
     errors, `${megabytes(row.bytes)} MB${row.flicker ? `, flicker of error ${fixed(row.flicker.ofError, 4)}` : ""}`].filter(Boolean);
 }
 function tell(dot, [title, ...lines]) {
   const tip = $("tip"), at = dot.getBoundingClientRect();
   tip.replaceChildren(element("strong", {}, title), ...lines.flatMap(line => [line, element("br")]).slice(0, -1));
   tip.hidden = false;
-  const room = document.documentElement.clientWidth - tip.offsetWidth - 8;
-  tip.style.left = `${Math.max(8, Math.min(at.left + at.width / 2 - tip.offsetWidth / 2, room)) + scrollX}px`;
+  const most = document.documentElement.clientWidth - tip.offsetWidth - 8;
+  tip.style.left = `${Math.max(8, Math.min(at.left + at.width / 2 - tip.offsetWidth / 2, most)) + scrollX}px`;
   tip.style.top = `${(at.top > tip.offsetHeight + 12 ? at.top - tip.offsetHeight - 8 : at.bottom + 8) + scrollY}px`;
 }
 
@@ -76,7 +76,7 @@ function frontChart(front) {
   const time = r => r.milliseconds.median, error = r => Math.max(errorOf(r, kind).eA, 1e-5);
   const x = axisOf(shown.map(time), BOX.left, BOX.right), y = axisOf(shown.map(error), BOX.bottom, BOX.top);
   const root = frame(x, y, "milliseconds", "eA"), steps = [];
-  let best = Infinity;  // the front of what is shown
+  let best = Infinity;  // builds the front of the shown rows
   for (const row of [...shown].sort((a, b) => time(a) - time(b) || error(a) - error(b))) if (error(row) < best) { best = error(row); steps.push(row); }
   const points = steps.flatMap((row, i) => (i ? [[time(row), error(steps[i - 1])]] : []).concat([[time(row), error(row)]])).map(([a, b]) => [x.at(a), y.at(b)]);
   root.append(svg("polyline", {class: "front", points: [...points, [BOX.right, points[points.length - 1][1]]].map(p => p.join(",")).join(" ")}));
@@ -91,7 +91,7 @@ function drawFronts() {
     const caption = element("figcaption", {}, element("strong", {}, front.scene), `${front.camera === "own" ? "" : front.camera + ", "}${front.falloff}, ${front.reference}, ${sizeOf(front)}`);
     const verdict = !front.both ? [] : front.gaps.length
       ? [element("ul", {class: "gaps"}, ...front.gaps.map(g => element("li", {}, g)))]
-      : [element("ul", {class: "gaps ahead"}, element("li", {}, "One of ours is ahead of every yardstick at every budget."))];
+      : [element("ul", {class: "gaps ahead"}, element("li", {}, "One of ours has less error than every baseline method at every budget."))];
     return element("figure", {}, caption, frontChart(front), ...verdict);
   }));
   if (!list.length) $("fronts").append(element("p", {class: "empty"}, "No errors were measured here."));
@@ -99,7 +99,7 @@ function drawFronts() {
 const drawn = unique(data.fronts.flatMap(f => f.rows).map(i => data.rows[i].method));
 function drawMethods() {
   $("methods").replaceChildren(...drawn.map(id => {
-    const yard = data.rows.find(r => r.method === id).yardstick, shape = yard ? svg("rect", {width: 12, height: 12, fill: colour(id)}) : svg("circle", {cx: 6, cy: 6, r: 6, fill: colour(id)});
+    const isBaseline = data.rows.find(r => r.method === id).baseline, shape = isBaseline ? svg("rect", {width: 12, height: 12, fill: colour(id)}) : svg("circle", {cx: 6, cy: 6, r: 6, fill: colour(id)});
     const onclick = () => { state.hidden.has(id) ? state.hidden.delete(id) : state.hidden.add(id); draw(); $("methods").querySelector(`[data-id="${id}"]`).focus(); };
     return element("button", {type: "button", "data-id": id, "aria-pressed": String(!state.hidden.has(id)), onclick}, svg("svg", {viewBox: "0 0 12 12", "aria-hidden": "true"}, shape), id);
   }));

@@ -1,7 +1,7 @@
-// The gallery: one state, and functions that draw each part of the page from it.
+// The accuracy gallery: one state object, and functions that draw each section from it.
 (() => {
 const data = JSON.parse(document.getElementById("data").textContent);
-const REFERENCE = " reference";  // stands for the reference among the pictures' names
+const REFERENCE = " reference";  // name of the reference among the pictures
 const state = {
   shot: 0, falloff: "", reference: "", left: REFERENCE, right: "", range: data.errorRange, thumbs: "pictures",
   sort: "eA", descending: false, only: false, filter: "",
@@ -12,14 +12,14 @@ const shotTitle = s => `${s.scene}, ${s.camera}${s.time ? ` at ${+s.time.toFixed
 const methodIndex = id => Math.max(0, data.methods.findIndex(m => m.id === id));
 const colour = id => `var(--c${methodIndex(id) % 10})`;
 
-// ---- what is chosen ----
+// ---- selection ----
 const reference = () => shot().references.find(r => r.kind === state.reference && r.falloff === state.falloff);
 const drawnOf = label => shot().drawn.find(d => d.label === label && d.falloff === state.falloff);
 const pictureOf = name => (name === REFERENCE ? reference() : drawnOf(name))?.picture;
 const titleOf = name => name === REFERENCE ? `${state.reference} reference` : name;
 const rowOf = label => shot().rows.find(r => r.label === label && r.falloff === state.falloff && r.reference === state.reference);
 const rowsHere = () => shot().rows.filter(r => r.falloff === state.falloff && r.reference === state.reference);
-const judged = () => state.right !== REFERENCE ? state.right : state.left;  // the method whose error is shown
+const shownMethod = () => state.right !== REFERENCE ? state.right : state.left;  // the method whose error is shown
 const everyRow = data.shots.flatMap((s, index) => s.rows.map(row => ({...row, shot: index, all: row.milliseconds.all})));
 
 // ---- pictures as numbers ----
@@ -47,7 +47,7 @@ function errorColour(error, range) {
   return stops[i].map((a, c) => a + s * (stops[i + 1][c] - a));
 }
 async function paintError(canvas, picture, against) {
-  const wanted = canvas.wanted = {};  // a later call for the same canvas overtakes this one
+  const wanted = canvas.wanted = {};  // a later call for the same canvas cancels this one
   const [a, r] = await Promise.all([grey(picture), grey(against)]);
   if (canvas.wanted !== wanted) return;
   const table = Array.from({length: 511}, (_, i) => errorColour((i - 255) / 255, state.range));
@@ -92,7 +92,7 @@ function drawCompare() {
     image.height = shot().size[1];
     $(`tag-${side}`).textContent = titleOf(state[side]);
   }
-  const label = judged(), row = label === REFERENCE ? undefined : rowOf(label);
+  const label = shownMethod(), row = label === REFERENCE ? undefined : rowOf(label);
   $("error-title").textContent = row ? `${label} minus ${state.reference} reference` : "Choose a method on either side";
   $("error").setAttribute("aria-label", `Error picture of ${titleOf(label)}`);
   if (pictureOf(label)) paintError($("error"), pictureOf(label), reference().picture);
@@ -195,7 +195,7 @@ function passesChart(rows) {
   });
 }
 function timeChart(all) {
-  const rows = all.filter(r => r.milliseconds.all > 0 && r.method !== "none");  // the picture without obscurance costs nothing
+  const rows = all.filter(r => r.milliseconds.all > 0 && r.method !== "none");  // `none` takes no time
   if (!rows.length) return element("p", {class: "empty"}, "No times were measured.");
   const height = 360, bounds = {left: 54, right: WIDTH - 12, top: 14, bottom: height - 40};
   const times = rows.map(r => Math.log10(r.milliseconds.all)), errors = rows.map(r => r.eA);
@@ -283,7 +283,7 @@ $("only").addEventListener("change", event => { state.only = event.target.checke
 $("filter").addEventListener("input", event => { state.filter = event.target.value; drawTable(); });
 
 if (data.shots.length && everyRow.length) {
-  const count = (number, thing) => `${number} ${thing}${number === 1 ? "" : "s"}`;
+  const count = (number, noun) => `${number} ${noun}${number === 1 ? "" : "s"}`;
   const number = key => unique(everyRow.map(r => r[key])).length;
   $("about").textContent = `${count(number("method"), "method")} (${count(number("label"), "preset")}) on ${count(data.shots.length, "frame")} `
     + `of ${count(number("scene"), "scene")} at ${data.shots[0].size.join(" × ")} px. Times: medians of ${data.frames} frames on ${data.device}.`;
@@ -292,7 +292,7 @@ if (data.shots.length && everyRow.length) {
 } else {
   $("about").textContent = "Nothing was measured.";
 }
-// The best on the first frame is a good thing to see first.
+// The method with the least error on a frame; shown first.
 function bestOf(s) {
   const rows = s.rows.filter(r => r.falloff === s.references[0].falloff && r.reference === s.references[0].kind);
   return rows.reduce((best, row) => row.eA < best.eA ? row : best, rows[0]).label;

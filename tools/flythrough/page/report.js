@@ -1,3 +1,4 @@
+// The flythrough report: a table of all runs, a chart over time, and the frames of the selected run.
 'use strict';
 const data = JSON.parse(document.getElementById('data').textContent);
 const parts = data.parts, $ = id => document.getElementById(id);
@@ -8,7 +9,7 @@ const kMeasures = [['flickerOfError', 'flicker of error'], ['eA', 'mean absolute
 const kDash = { raw: '1 3', spatial: '5 3', temporal: '' };
 const make = (tag, text, parent) => { const e = document.createElement(tag); if (text !== undefined) e.textContent = text; if (parent) parent.append(e); return e; };
 const drawn = (tag, attributes, parent) => { const e = document.createElementNS('http://www.w3.org/2000/svg', tag); for (const k in attributes) e.setAttribute(k, attributes[k]); parent.append(e); return e; };
-let chosen = parts[0], sortBy = null, downwards = false;
+let chosen = parts[0], sortBy = null, descending = false;
 
 const sizes = new Set(parts.map(p => `${p.width} x ${p.height} px, ${p.rays} rays`));
 $('about').textContent = [data.device, ...sizes].filter(Boolean).join(', ');
@@ -21,11 +22,11 @@ function summary() {
   const head = make('tr', undefined, make('thead', undefined, table));
   kColumns.forEach(([key, title]) => {
     const th = make('th', title, head);
-    if (key === sortBy) th.setAttribute('aria-sort', downwards ? 'descending' : 'ascending');
-    th.onclick = () => { downwards = sortBy === key ? !downwards : false; sortBy = key; summary(); };
+    if (key === sortBy) th.setAttribute('aria-sort', descending ? 'descending' : 'ascending');
+    th.onclick = () => { descending = sortBy === key ? !descending : false; sortBy = key; summary(); };
   });
   const rows = [...parts];
-  if (sortBy) rows.sort((a, b) => { const x = a[sortBy] ?? Infinity, y = b[sortBy] ?? Infinity; return (x < y ? -1 : x > y ? 1 : 0) * (downwards ? -1 : 1); });
+  if (sortBy) rows.sort((a, b) => { const x = a[sortBy] ?? Infinity, y = b[sortBy] ?? Infinity; return (x < y ? -1 : x > y ? 1 : 0) * (descending ? -1 : 1); });
   const best = {};
   for (const p of parts) for (const key of ['eA', 'flickerOfError']) { const k = p.flythrough + key; best[k] = Math.min(best[k] ?? Infinity, p[key]); }
   const body = make('tbody', undefined, table);

@@ -1,0 +1,98 @@
+#include "ao/frame_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "gpu/format_name.h"
+
+namespace obscura::ao {
+namespace {
+
+Role depthRole(const Frame& frame) { return frame.depthKind == DepthKind::linear ? Role::linearDepth : Role::deviceDepth; }
+Role normalsRole(const Frame& frame) {
+    return frame.normalEncoding == NormalEncoding::signedFloat ? Role::signedNormals
+           : frame.normalEncoding == NormalEncoding::biased    ? Role::unsignedNormals
+                                                               : Role::packedNormals;
+}
+
+bool allFinite(std::span<const float> list) {
+    return std::all_of(list.begin(), list.end(), [](float value) { return std::isfinite(value); });
+}
+
+struct GivenImage {
+    const char* name;
+    bool given;
+    const ImageView& view;
+    Role role;
+    VkExtent2D size;
+};
+
+Status checkImage(const Context& context, const GivenImage& image, bool forecast) {
+    const std::string field = std::string("Frame::") + image.name;
+    const ImageView& v = image.view;
+    if (!forecast) {
+        const char* missing = !v.image ? "image" : !v.view ? "view" : v.format == VK_FORMAT_UNDEFINED ? "format" : "layout";
+        if (!v.image || !v.view || v.format == VK_FORMAT_UNDEFINED || v.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+            return refuse(context, Status::invalid, fmt::format("{}.{} is missing", field, missing));
+    }
+    if (forecast && v.format == VK_FORMAT_UNDEFINED) return Status::ok;
+    if (!fits(image.role, v.format))
+        return refuse(context, Status::invalid, fmt::format("{}.format is {}; it must be {}", field, gpu::formatName(v.format), formatsOf(image.role)));
+    const gpu::Device& device = *context.device;
+    if (!device.formatSupports(v.format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+        return refuse(context, Status::unsupported, fmt::format("{}.format is {}, which this device cannot sample", field, gpu::formatName(v.format)));
+    if (forecast) return Status::ok;
+    // Vulkan does not tell an image's size, but its memory cannot be smaller than its texels: that catches one from before a resize.
+    VkMemoryRequirements needs;
+    device.vk().GetImageMemoryRequirements(device.handle(), v.image, &needs);
+    const uint64_t least = uint64_t(image.size.width) * image.size.height * leastBytes(v.format);
+    if (needs.size < least)
+        return refuse(context, Status::invalid, fmt::format("{}.image has {} bytes; {} x {} texels of {} take {} or more", field, needs.size,
+                                                            image.size.width, image.size.height, gpu::formatName(v.format), least));
+    return Status::ok;
+}
+
+}  // namespace
+
+GivenImages imagesOf(const Frame& frame, bool forecast) {
+    const auto is = [&](const ImageView& v) { return forecast ? v.format != VK_FORMAT_UNDEFINED : v.image || v.view; };
+    return {is(frame.normals), is(frame.motion), is(frame.layers.thickness), is(frame.layers.second)};
+}
+
+Status checkFrame(const Context& context, const Frame& frame, bool forecast, shared::View& view) {
+    const DepthLayers& layers = frame.layers;
+    const auto invalid = [&](const std::string& line) { return refuse(context, Status::invalid, line); };
+    const char* reason = nullptr;
+    if (viewOf(frame, view, reason) != Status::ok) return invalid(reason);
+    if (!allFinite(frame.eyeFromWorld)) return invalid("Frame::eyeFromWorld holds a value that is not finite");
+    if (!allFinite(frame.motionScale)) return invalid("Frame::motionScale holds a value that is not finite");
+    if (std::isnan(frame.skyDepth)) return invalid("Frame::skyDepth is not a number");
+    const uint32_t most = context.device->caps().maxImageSize;
+    if (std::max(frame.size.width, frame.size.height) > most)
+        return refuse(context, Status::unsupported, fmt::format("Frame::size is {} x {}; this device allows {} a side", frame.size.width, frame.size.height, most));
+    const GivenImages given = imagesOf(frame, forecast);
+    if (given.second && !given.thickness) return invalid("Frame::layers.second is given without Frame::layers.thickness; give both, or thickness alone");
+    const auto isReduced = [&](uint32_t side) {
+        return layers.secondSize.width == (frame.size.width + side - 1) / side && layers.secondSize.height == (frame.size.height + side - 1) / side;
+    };
+    if (given.second && !isReduced(1) && !isReduced(2))
+        return invalid(fmt::format("Frame::layers.secondSize is {} x {}; it must be Frame::size, {} x {}, or half of it rounded up", layers.secondSize.width,
+                                   layers.secondSize.height, frame.size.width, frame.size.height));
+    const GivenImage images[] = {{"depth", true, frame.depth, depthRole(frame), frame.size},
+                                 {"normals", given.normals, frame.normals, normalsRole(frame), frame.size},
+                                 {"motion", given.motion, frame.motion, Role::motion, frame.size},
+                                 {"layers.thickness", given.thickness, layers.thickness, Role::thickness, frame.size},
+                                 {"layers.second", given.second, layers.second, Role::second, layers.secondSize}};
+    for (const GivenImage& image : images) {
+        if (!image.given) continue;
+        if (const Status status = checkImage(context, image, forecast); status != Status::ok) return status;
+    }
+    shared::Volume volume;
+    if (frame.volume.buffer && volumeOf(frame.volume, volume, reason) != Status::ok) return invalid(reason);
+    return Status::ok;
+}
+
+}  // namespace obscura::ao

@@ -1,0 +1,45 @@
+#include "ao/temporal.h"
+
+#include <algorithm>
+#include <string>
+
+namespace obscura::ao {
+namespace {
+
+struct Reprojection {  // temporal.comp
+    float previousFromEye[12];
+    float motionScale[2];
+    float history, depthTolerance, normalTolerance, clip, clipFloor;
+    uint32_t valid;
+};
+
+}  // namespace
+
+Status Temporal::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Temporal& out) {
+    return gpu::Program::compute(device, shaders, "ao/common/temporal.comp", {}, out.m_reproject) == gpu::Status::ok ? Status::ok : Status::shaderError;
+}
+
+graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings, bool discard,
+                             const char* passName) {
+    if (!inputs.motion || settings.history <= 0.0f) {
+        graph.onRecorded([this] { m_history.invalidate(); });  // it would be older than one frame
+        return visibility;
+    }
+    const shared::uvec2 size = inputs.view.visible;
+    const auto history = graph.history(std::string(passName) + " past", {VK_FORMAT_R32G32_UINT, size.x, size.y}, m_history, discard);
+    Reprojection constants{};
+    std::copy_n(inputs.previousFromEye, 12, constants.previousFromEye);
+    std::copy_n(inputs.motionScale, 2, constants.motionScale);
+    constants.history = std::min(settings.history, 0.98f);
+    constants.depthTolerance = settings.depthTolerance;
+    constants.normalTolerance = settings.normalTolerance;
+    constants.clip = settings.clip;
+    constants.clipFloor = settings.clipFloor;
+    constants.valid = history.valid ? 1 : 0;
+    const graph::ImageId result = graph.image(passName, graph.desc(visibility));
+    graph.pass(passName, m_reproject).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(inputs.motion).read(visibility)
+        .read(history.previous).write(result).write(history.current).constants(constants).dispatch(size.x, size.y);
+    return result;
+}
+
+}  // namespace obscura::ao

@@ -1,0 +1,20 @@
+// Frame and Volume of the API as the blocks that shaders read.
+#pragma once
+
+#include "obscura/ao.h"
+#include "shared/view.h"
+#include "shared/volume.h"
+
+namespace obscura::ao {
+
+// The view of a frame's size, guard band and projection. The depth convention (reversed or not, finite or infinite, orthographic,
+// off-centre, y flipped) is read from the matrix. Status::invalid with a reason if the matrix is no projection.
+Status viewOf(const Frame& frame, shared::View& view, const char*& reason);
+
+// The volume block of Frame::volume, without its buffer. Status::invalid with a reason if it describes no volume.
+Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason);
+
+// Linear depth of sky in Inputs::depth, metres; view.skyDepth is at most this.
+inline constexpr float kSkyDepth = 1.0e8f;
+
+}  // namespace obscura::ao

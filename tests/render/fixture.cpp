@@ -1,0 +1,103 @@
+// Fixture: renders frames and reads their images back.
+#include "fixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include <glm/gtc/packing.hpp>
+
+#include "graph/executor.h"
+#include "obscura/ao.h"
+
+namespace obscura::test {
+namespace {
+
+// Copies an image of the graph into a host-visible buffer when the graph executes.
+struct Readback {
+    gpu::Buffer buffer;
+    Pixels* target = nullptr;
+};
+
+void copyOut(graph::Graph& graph, graph::ImageId image, Readback& back, Pixels& target) {
+    const gpu::ImageDesc desc = graph.desc(image);
+    target.width = desc.width;
+    target.height = desc.height;
+    target.bytes.resize(size_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format));
+    back.target = &target;
+    if (gpu::Buffer::create(graph.device(), target.bytes.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "readback", back.buffer) != gpu::Status::ok)
+        throw std::runtime_error("no readback buffer");
+    const graph::BufferId to = graph.import("readback", back.buffer, graph::Graph::Shared::written);
+    const VkBuffer handle = back.buffer.handle();
+    const VkBufferImageCopy region{0, 0, 0, {gpu::aspectOf(desc.format), 0, 0, 1}, {}, {desc.width, desc.height, 1}};
+    graph.pass("read back").use(image, graph::Access::transferRead).use(to, graph::Access::transferWrite).keep().record([=](const graph::PassContext& c) {
+        c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
+    });
+}
+
+}  // namespace
+
+glm::vec2 Picture::motionAt(uint32_t x, uint32_t y) const { return glm::unpackHalf2x16(motion.at<uint32_t>(x, y)); }
+
+glm::vec3 Picture::normalAt(uint32_t x, uint32_t y) const {
+    const glm::vec2 e = glm::unpackSnorm2x16(normals.at<uint32_t>(x, y));
+    glm::vec3 n(e, 1.0f - std::abs(e.x) - std::abs(e.y));
+    const float t = std::max(-n.z, 0.0f);
+    n.x -= n.x >= 0 ? t : -t;
+    n.y -= n.y >= 0 ? t : -t;
+    return glm::normalize(n);
+}
+
+glm::vec3 Picture::colorAt(float x, float y) const {
+    const float px = glm::clamp(x - 0.5f, 0.0f, float(color.width - 1) - 0.001f), py = glm::clamp(y - 0.5f, 0.0f, float(color.height - 1) - 0.001f);
+    const uint32_t ix = uint32_t(px), iy = uint32_t(py);
+    const auto texel = [&](uint32_t i, uint32_t j) { return glm::vec3(color.at<glm::u8vec4>(i, j)); };
+    const glm::vec3 top = glm::mix(texel(ix, iy), texel(ix + 1, iy), px - float(ix));
+    const glm::vec3 bottom = glm::mix(texel(ix, iy + 1), texel(ix + 1, iy + 1), px - float(ix));
+    return glm::mix(top, bottom, py - float(iy));
+}
+
+RenderFixture::RenderFixture() : m_none(*ao::findMethod("none")) {
+    m_shaders.add(render::shaders());
+    m_shaders.add(ao::shaders());
+    m_renderer = render::Renderer::create(device(), m_shaders);
+    if (!m_renderer) throw std::runtime_error("no renderer");
+    m_graph = std::make_unique<graph::Graph>(device());
+    m_executor = std::make_unique<graph::Executor>(device());
+}
+
+render::FrameOptions RenderFixture::options() const {
+    render::FrameOptions options;
+    options.visible = {320, 240};
+    options.guard = 0.1f;
+    options.method = &m_none;
+    options.camera.eye = {0.6f, 0.9f, 3.6f};
+    options.camera.target = {0.0f, 0.1f, 0.0f};
+    return options;
+}
+
+Picture RenderFixture::render(const scene::World& world, const render::FrameOptions& options) {
+    Picture picture;
+    Readback backs[7];
+    device().nextFrame();
+    m_graph->begin();
+    const render::Outputs out = m_renderer->add(*m_graph, world, options);
+    copyOut(*m_graph, out.color, backs[0], picture.color);
+    copyOut(*m_graph, out.visibility, backs[1], picture.visibility);
+    copyOut(*m_graph, out.depth, backs[2], picture.depth);
+    copyOut(*m_graph, out.normals, backs[3], picture.normals);
+    copyOut(*m_graph, out.motion, backs[4], picture.motion);
+    if (out.layers.thickness) copyOut(*m_graph, out.layers.thickness, backs[5], picture.thickness);
+    if (out.layers.second) copyOut(*m_graph, out.layers.second, backs[6], picture.second);
+    gpu::Status executed = gpu::Status::ok;
+    const gpu::Status ran = device().runNow([&](VkCommandBuffer cmd) { executed = m_executor->execute(*m_graph, cmd); });
+    if (executed != gpu::Status::ok || ran != gpu::Status::ok) throw std::runtime_error("the frame did not run\n" + allLogged());
+    for (const Readback& back : backs)
+        if (back.target) std::memcpy(back.target->bytes.data(), back.buffer.mapped(), back.target->bytes.size());
+    picture.size = {picture.depth.width, picture.depth.height};
+    picture.guard = {(picture.depth.width - picture.color.width) / 2, (picture.depth.height - picture.color.height) / 2};
+    return picture;
+}
+
+}  // namespace obscura::test
