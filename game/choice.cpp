@@ -145,8 +145,7 @@ void Choice::applyResolve(const std::string& id) {
 
 void Choice::assign(const std::string& assignment) {
     const size_t equals = assignment.find('=');
-    if (equals == std::string::npos)
-        throw Complaint(fmt::format("--set {}: no value; write METHOD.PARAMETER=VALUE", assignment));
+    if (equals == std::string::npos) throw Complaint(fmt::format("--set {}: no value; write METHOD.PARAMETER=VALUE", assignment));
     const std::string left = assignment.substr(0, equals), text = assignment.substr(equals + 1);
     const size_t dot = left.find('.');
     size_t method = m_current;
@@ -172,12 +171,12 @@ void Choice::assign(const std::string& assignment) {
         if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
             std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
             throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is not a number; {} goes from {:g} to {:g}", assignment, text, name,
-                                                        parameter.minimum, parameter.maximum)
+                                                parameter.minimum, parameter.maximum)
                                           : fmt::format("--set {}: {}", assignment, app::choices(text, words)));
         }
         if (value < parameter.minimum || value > parameter.maximum || (parameter.integer && value != std::floor(value)))
             throw Complaint(fmt::format("--set {}: {} is a {} from {:g} to {:g}", assignment, name,
-                                        parameter.integer ? "whole number" : "number", parameter.minimum, parameter.maximum));
+                parameter.integer ? "whole number" : "number", parameter.minimum, parameter.maximum));
         m_values[method].set(parameter.id, value);
         return;
     }
@@ -213,7 +212,8 @@ void Choice::setFalloff(const std::string& text) {
     const std::vector<std::string> kinds(std::begin(kFalloffNames), std::end(kFalloffNames));
     for (const std::string& known : kinds)
         if (kind == known)
-            throw Complaint(fmt::format("--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
+            throw Complaint(fmt::format(
+                "--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
     throw Complaint(fmt::format("--falloff {}: no such kind; {}", text, app::choices(kind, kinds)));
 }
 

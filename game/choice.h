@@ -21,12 +21,12 @@ public:
 
     // From text, as on a command line. They throw app::Complaint, which lists the known names.
     void select(const std::string& id);
-    void applyPreset(const std::string& id);        // to the selected method; its other parameters return to their initial values
-    void applyResolve(const std::string& id);       // to the selected method, over its current values
-    void assign(const std::string& assignment);     // "METHOD.PARAMETER=VALUE", or "PARAMETER=VALUE" for the selected one
+    void applyPreset(const std::string& id);     // to the selected method; its other parameters return to their initial values
+    void applyResolve(const std::string& id);    // to the selected method, over its current values
+    void assign(const std::string& assignment);  // "METHOD.PARAMETER=VALUE", or "PARAMETER=VALUE" for the selected one
     void assignToAll(const std::string& parameter, const std::string& value);  // and to all other methods that have it
     void setFalloff(const std::string& text);
-    void read(const std::string& text);             // "METHOD[:PRESET][,PARAMETER=VALUE...]", as --compare takes it
+    void read(const std::string& text);  // "METHOD[:PRESET][,PARAMETER=VALUE...]", as --compare takes it
 
     ao::Falloff falloff;
 

@@ -71,7 +71,7 @@ SceneInfo sceneOf(const scene::JsonAt& at) {
             const scene::JsonAt toy = toys->at(i);
             toy.only({"at", "turnDegrees", "scale", "time"});
             info.toys.push_back({scene::vector3(toy.at("at")), glm::radians(numberOr(toy, "turnDegrees", 0.0f)),
-                                 numberOr(toy, "scale", info.toyScale), numberOr(toy, "time", 0.0f)});
+                numberOr(toy, "scale", info.toyScale), numberOr(toy, "time", 0.0f)});
         }
     }
     return info;

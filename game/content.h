@@ -19,10 +19,10 @@ std::optional<std::filesystem::path> findContent(const std::vector<std::string>&
 
 // Toys of toasters.glb set down in a scene, without their tray.
 struct ToyGroup {
-    glm::vec3 at{0.0f};   // centre of their tray, world
-    float turn = 0.0f;    // radians about y
+    glm::vec3 at{0.0f};  // centre of their tray, world
+    float turn = 0.0f;   // radians about y
     float scale = 1.0f;
-    float time = 0.0f;    // seconds ahead of the world
+    float time = 0.0f;  // seconds ahead of the world
 };
 
 struct SceneInfo {
@@ -34,7 +34,7 @@ struct SceneInfo {
     glm::vec3 eye{0.0f}, target{0.0f};
     glm::vec2 walkMin{-1e6f}, walkMax{1e6f};  // x and z that a walker stays within
     float exposure = 1.0f;
-    float toyScale = 1.0f;           // of toys that the player drops
+    float toyScale = 1.0f;  // of toys that the player drops
     std::vector<ToyGroup> toys;
 };
 

@@ -58,7 +58,8 @@ Engine::Engine(const Options& options, app::Window* window) : m_verbose(options.
     };
     std::string error;
     m_device = gpu::Device::create(wanted, error);
-    if (!m_device) throw Complaint(fmt::format("no device: {}", app::oneLine(error)), options.device.empty() ? app::kFailed : app::kBadInput);
+    if (!m_device)
+        throw Complaint(fmt::format("no device: {}", app::oneLine(error)), options.device.empty() ? app::kFailed : app::kBadInput);
     started.device = (app::now() - begun) * 1e-3;
 
     const double pipelinesBegun = app::now();
@@ -131,7 +132,8 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
                 expect(gpu::Status::shaderError, "making the method's pipelines");
         }
     }
-    if (options.compare && !m_renderer->otherLibrary().prepare(options.compare->info())) expect(gpu::Status::shaderError, "making the second method's pipelines");
+    if (options.compare && !m_renderer->otherLibrary().prepare(options.compare->info()))
+        expect(gpu::Status::shaderError, "making the second method's pipelines");
     started.pipelines += (app::now() - begun) * 1e-3;
 
     begun = app::now();

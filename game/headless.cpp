@@ -63,9 +63,10 @@ int runHeadless(const Options& options) {
     Engine engine(options, nullptr);
     engine.prepare(options, stage, options.switchTest.has_value());
     if (options.verbose)
-        fmt::print(stderr, "obscura: {}: started in {:.2f} s (device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {})\n",
-                   engine.device().caps().deviceName, engine.started.total(), engine.started.device, engine.started.scene,
-                   engine.started.pipelines, engine.started.warmUp, engine.started.cacheFound ? "found" : "not found");
+        fmt::print(stderr,
+            "obscura: {}: started in {:.2f} s (device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {})\n",
+            engine.device().caps().deviceName, engine.started.total(), engine.started.device, engine.started.scene,
+            engine.started.pipelines, engine.started.warmUp, engine.started.cacheFound ? "found" : "not found");
     if (options.switchTest) {
         switchTest(options, engine, stage);
         return reportValidation(options, engine);
@@ -111,21 +112,25 @@ int runHeadless(const Options& options) {
             const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
             if (i == 0) expectPass(options, graph);
             if (measures)
-                engine.expect(readInto(measures, engine.capture(), graph, outputs, measuredFrame(frame, stage.world, i)), "reading samples back");
+                engine.expect(
+                    readInto(measures, engine.capture(), graph, outputs, measuredFrame(frame, stage.world, i)), "reading samples back");
             graph.output(outputs.color);
 
             const auto place = std::find(shown.begin(), shown.end(), i);
             ReportPicture* picture = place == shown.end() ? nullptr : &report.pictures[size_t(place - shown.begin())];
             const bool isLast = i + 1 == frames;
             if (!options.out.empty() || (isLast && !options.screenshot.empty()))
-                engine.expect(engine.capture().add(graph, outputs.color, [&options, i, picture, isLast](app::Picture&& done) {
-                    if (!options.out.empty()) app::writePng(options.out / fmt::format("frame_{:04}.png", i), done);
-                    if (isLast && !options.screenshot.empty()) app::writePng(options.screenshot, done);
-                    if (picture) picture->final = std::move(done);
-                }), "reading the picture back");
+                engine.expect(engine.capture().add(graph, outputs.color,
+                                  [&options, i, picture, isLast](app::Picture&& done) {
+                                      if (!options.out.empty()) app::writePng(options.out / fmt::format("frame_{:04}.png", i), done);
+                                      if (isLast && !options.screenshot.empty()) app::writePng(options.screenshot, done);
+                                      if (picture) picture->final = std::move(done);
+                                  }),
+                    "reading the picture back");
             if (picture)
-                engine.expect(engine.capture().add(graph, outputs.visibility, [picture](app::Picture&& done) { picture->visibility = std::move(done); }),
-                              "reading visibility back");
+                engine.expect(engine.capture().add(
+                                  graph, outputs.visibility, [picture](app::Picture&& done) { picture->visibility = std::move(done); }),
+                    "reading visibility back");
             engine.expect(engine.frames().end(graph), "rendering");
             if (i >= report.dropped) statistics.addCpu(engine.frames().recordMilliseconds(), app::now() - last);
             last = app::now();
@@ -146,10 +151,10 @@ int runHeadless(const Options& options) {
         report.write(options.out);
         fmt::print("{}: {} pictures, summary.html, timings.json\n", options.out.string(), frames);
     }
-    const std::string methods =
-        options.compare ? fmt::format("{} | {}", label(options.choice.values()), label(options.compare->values())) : options.choice.info().id;
-    fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, methods, options.size.width, options.size.height, engine.device().caps().deviceName,
-               report.table());
+    const std::string methods = options.compare ? fmt::format("{} | {}", label(options.choice.values()), label(options.compare->values()))
+                                                : options.choice.info().id;
+    fmt::print("{}, {} at {} x {}, {}\n{}", stage.info.name, methods, options.size.width, options.size.height,
+        engine.device().caps().deviceName, report.table());
     if (measures) fmt::print("{}", summary(measures->all()));
     return reportValidation(options, engine);
 }
@@ -166,7 +171,8 @@ int runWithoutWindow(const Options& given, const std::string& why) {
         options.step = 0.4f;
     }
     if (options.out.empty()) options.out = "out";
-    fmt::print(stderr, "obscura: {}; rendering the flythrough without a window, pictures and summary go to {}/\n", why, options.out.string());
+    fmt::print(
+        stderr, "obscura: {}; rendering the flythrough without a window, pictures and summary go to {}/\n", why, options.out.string());
     return runHeadless(options);
 }
 

@@ -12,10 +12,14 @@ namespace {
 
 constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_1, Action::method, "1..9", "select one of the first nine methods"},
-    {GLFW_KEY_2, Action::method, nullptr, nullptr}, {GLFW_KEY_3, Action::method, nullptr, nullptr},
-    {GLFW_KEY_4, Action::method, nullptr, nullptr}, {GLFW_KEY_5, Action::method, nullptr, nullptr},
-    {GLFW_KEY_6, Action::method, nullptr, nullptr}, {GLFW_KEY_7, Action::method, nullptr, nullptr},
-    {GLFW_KEY_8, Action::method, nullptr, nullptr}, {GLFW_KEY_9, Action::method, nullptr, nullptr},
+    {GLFW_KEY_2, Action::method, nullptr, nullptr},
+    {GLFW_KEY_3, Action::method, nullptr, nullptr},
+    {GLFW_KEY_4, Action::method, nullptr, nullptr},
+    {GLFW_KEY_5, Action::method, nullptr, nullptr},
+    {GLFW_KEY_6, Action::method, nullptr, nullptr},
+    {GLFW_KEY_7, Action::method, nullptr, nullptr},
+    {GLFW_KEY_8, Action::method, nullptr, nullptr},
+    {GLFW_KEY_9, Action::method, nullptr, nullptr},
     {GLFW_KEY_LEFT_BRACKET, Action::previousMethod, "[", "previous method"},
     {GLFW_KEY_RIGHT_BRACKET, Action::nextMethod, "]", "next method"},
     {GLFW_KEY_P, Action::nextPreset, "P", "next preset of the method"},

@@ -7,16 +7,43 @@
 namespace obscura::game {
 
 enum class Action {
-    quit, toggleOverlay, toggleKeys, screenshot, fullScreen, visibilityOnly, nextView, method, previousMethod, nextMethod,
-    nextPreset, pause, stepBack, stepForward, faster, slower, toggleWalk, toggleFlythrough, resetCamera, dropToy, removeToy,
-    clearToys, compare, nextOther, swapSides, copySide, dividerLeft, dividerRight,
-    record, replay, measure,
+    quit,
+    toggleOverlay,
+    toggleKeys,
+    screenshot,
+    fullScreen,
+    visibilityOnly,
+    nextView,
+    method,
+    previousMethod,
+    nextMethod,
+    nextPreset,
+    pause,
+    stepBack,
+    stepForward,
+    faster,
+    slower,
+    toggleWalk,
+    toggleFlythrough,
+    resetCamera,
+    dropToy,
+    removeToy,
+    clearToys,
+    compare,
+    nextOther,
+    swapSides,
+    copySide,
+    dividerLeft,
+    dividerRight,
+    record,
+    replay,
+    measure,
 };
 
 struct KeyBinding {
-    int key;             // GLFW key code
+    int key;  // GLFW key code
     Action action;
-    const char* name;    // of the key, as shown; null: listed with the binding before
+    const char* name;  // of the key, as shown; null: listed with the binding before
     const char* effect;
     bool repeats = false;  // while held
 };

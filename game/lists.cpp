@@ -26,7 +26,8 @@ std::vector<std::string> needsOf(const ao::MethodInfo& info) {
 Json jsonOf(const ao::MethodInfo& info) {
     Json parameters = Json::array(), presets = Json::array();
     for (const ao::Parameter& p : info.parameters) {
-        Json parameter{{"id", p.id}, {"unit", p.unit}, {"minimum", p.minimum}, {"maximum", p.maximum}, {"initial", p.initial}, {"integer", p.integer}};
+        Json parameter{
+            {"id", p.id}, {"unit", p.unit}, {"minimum", p.minimum}, {"maximum", p.maximum}, {"initial", p.initial}, {"integer", p.integer}};
         parameter["choices"] = std::vector<std::string>(p.choices.begin(), p.choices.end());
         parameter["sentence"] = p.sentence;
         parameters.push_back(parameter);
@@ -36,8 +37,8 @@ Json jsonOf(const ao::MethodInfo& info) {
         for (const ao::Setting& setting : p.settings) settings[setting.id] = setting.value;
         presets.push_back({{"id", p.id}, {"sentence", p.sentence}, {"settings", settings}});
     }
-    return {{"id", info.id},       {"title", info.title},        {"paper", info.paper},   {"sentence", info.sentence},
-            {"needs", needsOf(info)}, {"parameters", parameters}, {"presets", presets}};
+    return {{"id", info.id}, {"title", info.title}, {"paper", info.paper}, {"sentence", info.sentence}, {"needs", needsOf(info)},
+        {"parameters", parameters}, {"presets", presets}};
 }
 
 }  // namespace
@@ -55,8 +56,9 @@ int listMethods(bool json) {
         fmt::print("    needs {}\n", fmt::join(needsOf(*info), ", "));
         for (const ao::Parameter& p : info->parameters) {
             std::vector<std::string> words(p.choices.begin(), p.choices.end());
-            const std::string range = words.empty() ? fmt::format("{:g} to {:g}{}{}, {:g}", p.minimum, p.maximum, *p.unit ? " " : "", p.unit, p.initial)
-                                                    : fmt::format("{}; {}", fmt::join(words, " | "), words[std::min(words.size() - 1, size_t(p.initial))]);
+            const std::string range =
+                words.empty() ? fmt::format("{:g} to {:g}{}{}, {:g}", p.minimum, p.maximum, *p.unit ? " " : "", p.unit, p.initial)
+                              : fmt::format("{}; {}", fmt::join(words, " | "), words[std::min(words.size() - 1, size_t(p.initial))]);
             fmt::print("    --set {}.{}=  ({})  {}\n", info->id, p.id, range, p.sentence);
         }
         for (const ao::Preset& p : info->presets) fmt::print("    --preset {}  {}\n", p.id, p.sentence);
@@ -71,7 +73,8 @@ int listScenes() {
 
 int listDevices() {
     const std::vector<std::string> devices = gpu::Device::list();
-    if (devices.empty()) throw app::Complaint("no Vulkan device found; install a driver (mesa-vulkan-drivers has a software one)", app::kFailed);
+    if (devices.empty())
+        throw app::Complaint("no Vulkan device found; install a driver (mesa-vulkan-drivers has a software one)", app::kFailed);
     for (const std::string& device : devices) std::puts(device.c_str());
     return 0;
 }

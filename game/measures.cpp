@@ -58,7 +58,8 @@ Measures::Previous::Decoded Measures::Previous::decode(const Frame& frame, const
     decoded.captured = truth::emptyFrame(size, {0, 0}, frame.camera.fovY, frame.camera.nearPlane, frame.camera);
     if (frame.visible.width % frame.step || frame.visible.height % frame.step) {
         // Blocks that the picture's edge cuts off are left out, so the projection is cropped: x' = scale x + (scale - 1) w in clip space.
-        const glm::vec2 whole(float(frame.visible.width), float(frame.visible.height)), scale = whole / (glm::vec2(size) * float(frame.step));
+        const glm::vec2 whole(float(frame.visible.width), float(frame.visible.height)),
+            scale = whole / (glm::vec2(size) * float(frame.step));
         glm::mat4 crop(1.0f);
         crop[0][0] = scale.x, crop[3][0] = scale.x - 1.0f;
         crop[1][1] = scale.y, crop[3][1] = scale.y - 1.0f;
@@ -122,7 +123,8 @@ void Measures::work() {
         m_busy = true;
         lock.unlock();
         const auto begun = std::chrono::steady_clock::now();
-        const bool sameSettings = previous.frame && previous.frame->sides == job.frame.sides && previous.frame->step == job.frame.step && !job.frame.cut;
+        const bool sameSettings =
+            previous.frame && previous.frame->sides == job.frame.sides && previous.frame->step == job.frame.step && !job.frame.cut;
         Reading reading;
         try {
             reading = measure(job, previous);
@@ -145,15 +147,17 @@ Measures::Reading Measures::measure(const Job& job, Previous& previous) const {
     Previous::Decoded decoded = Previous::decode(frame, job.texels);
     Reading reading{.number = frame.number, .time = frame.time, .size = decoded.captured.size, .step = frame.step};
     reading.sides.resize(frame.sides.size());
-    const bool follows = previous.frame && !frame.cut && previous.frame->number + 1 == frame.number && previous.decoded.captured.size == decoded.captured.size &&
-                         previous.frame->sides.size() == frame.sides.size();
+    const bool follows = previous.frame && !frame.cut && previous.frame->number + 1 == frame.number &&
+                         previous.decoded.captured.size == decoded.captured.size && previous.frame->sides.size() == frame.sides.size();
     const bool unchanged = follows && previous.frame->sides == frame.sides && previous.frame->falloff == frame.falloff;
-    previous.still = unchanged && sameWorld(frame, *previous.frame) && sameCamera(frame.camera, previous.frame->camera) ? previous.still + 1 : 0;
+    previous.still =
+        unchanged && sameWorld(frame, *previous.frame) && sameCamera(frame.camera, previous.frame->camera) ? previous.still + 1 : 0;
     if (previous.still <= kSettling) previous.noise.assign(frame.sides.size(), {});
     reading.settling = std::min(previous.still, kSettling);
 
     if (const std::optional<truth::Reference> found = m_cache.find(frame.viewKey);
-        found && found->channels[0].obscurance.width == decoded.captured.size.x && found->channels[0].obscurance.height == decoded.captured.size.y) {
+        found && found->channels[0].obscurance.width == decoded.captured.size.x &&
+        found->channels[0].obscurance.height == decoded.captured.size.y) {
         decoded.reference = truth::Traced{found->channels[0].obscurance, found->channels[0].error};
         for (float& v : decoded.reference->visibility.values) v = 1.0f - v;
         const auto surfaces = std::count(decoded.visible.begin(), decoded.visible.end(), 1);
@@ -164,7 +168,8 @@ Measures::Reading Measures::measure(const Job& job, Previous& previous) const {
     if (correspondence) reading.share = correspondence->share();
     const truth::Traced nothing{truth::Plane(decoded.captured.size.x, decoded.captured.size.y), {}};
     const bool hasReferences = decoded.reference && previous.decoded.reference;
-    const truth::Traced &now = hasReferences ? *decoded.reference : nothing, &before = hasReferences ? *previous.decoded.reference : nothing;
+    const truth::Traced &now = hasReferences ? *decoded.reference : nothing,
+                        &before = hasReferences ? *previous.decoded.reference : nothing;
     for (size_t i = 0; i < decoded.sides.size(); ++i) {
         Side& side = reading.sides[i];
         if (decoded.reference) side.errors = truth::errors(decoded.sides[i], decoded.reference->visibility, decoded.visible);

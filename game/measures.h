@@ -32,27 +32,27 @@ public:
     ~Measures();
 
     struct Frame {
-        uint64_t number = 0;       // consecutive numbers are consecutive frames
+        uint64_t number = 0;  // consecutive numbers are consecutive frames
         scene::Camera camera;
-        VkExtent2D visible{};      // px, without guard band
+        VkExtent2D visible{};  // px, without guard band
         uint32_t step = 1;
-        float time = 0.0f;         // s, of the world
+        float time = 0.0f;  // s, of the world
         bool cut = false;
-        bool animated = true;      // the world has animations
-        size_t instances = 0;      // in the world
+        bool animated = true;           // the world has animations
+        size_t instances = 0;           // in the world
         std::vector<ao::Values> sides;  // A, or A and B
         std::string falloff;
-        std::string viewKey;       // cache key of the matching reference; empty: none can match
+        std::string viewKey;  // cache key of the matching reference; empty: none can match
     };
     // `texels` as render::Outputs::samples. Any thread but the worker's.
     void add(Frame frame, std::span<const std::byte> texels);
 
     // Metrics of one side in one frame. Differences are to the previous frame.
     struct Side {
-        std::optional<float> change;                                 // D_A
-        std::optional<truth::Errors> errors;                         // needs a reference of this frame
-        std::optional<float> excess, flickerOfError;                 // F, F_e; need references of this and the previous frame
-        std::optional<truth::StaticNoise::Result> noise;             // over `stillFrames`
+        std::optional<float> change;                      // D_A
+        std::optional<truth::Errors> errors;              // needs a reference of this frame
+        std::optional<float> excess, flickerOfError;      // F, F_e; need references of this and the previous frame
+        std::optional<truth::StaticNoise::Result> noise;  // over `stillFrames`
     };
     struct Reading {
         uint64_t number = 0;
@@ -60,21 +60,21 @@ public:
         glm::uvec2 size{0};
         uint32_t step = 1;
         std::vector<Side> sides;
-        float rays = 0.0f;         // per pixel of the reference; 0: no reference
-        size_t stillFrames = 0;    // frames in `noise`, after kSettling; before, `settling` counts them
+        float rays = 0.0f;       // per pixel of the reference; 0: no reference
+        size_t stillFrames = 0;  // frames in `noise`, after kSettling; before, `settling` counts them
         size_t settling = 0;
-        float share = 0.0f;        // fraction of surface pixels found in the previous frame
-        double milliseconds = 0.0; // time of this measurement
-        std::string problem;       // one line if the measurement failed
+        float share = 0.0f;         // fraction of surface pixels found in the previous frame
+        double milliseconds = 0.0;  // time of this measurement
+        std::string problem;        // one line if the measurement failed
     };
     static constexpr size_t kSettling = 32;  // still frames before noise is measured, as in obscura-flythrough
     static constexpr size_t kMeans = 32;     // readings that means() averages
 
     // The newest reading; its differences are averaged over the last kMeans readings with unchanged settings. Empty before the first.
     std::optional<Reading> means() const;
-    std::vector<Reading> all() const;        // oldest first; with maxPending above 0 the last 600 only
-    size_t leftOut() const;                  // frames skipped because the worker was busy
-    void finish();                           // waits until all added frames are measured
+    std::vector<Reading> all() const;  // oldest first; with maxPending above 0 the last 600 only
+    size_t leftOut() const;            // frames skipped because the worker was busy
+    void finish();                     // waits until all added frames are measured
 
 private:
     struct Job {
@@ -93,13 +93,14 @@ private:
     size_t m_sameSettings = 0;  // number of newest readings with the same settings
     size_t m_leftOut = 0;
     bool m_busy = false, m_end = false;
-    std::thread m_worker;       // last member: the thread uses all others
+    std::thread m_worker;  // last member: the thread uses all others
 };
 
 // Describes a frame for the worker.
 Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::World& world, uint64_t number);
 // Reads the frame's samples back and passes them to `measures` when they arrive, if it still exists.
-gpu::Status readInto(const std::shared_ptr<Measures>& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs, Measures::Frame frame);
+gpu::Status readInto(const std::shared_ptr<Measures>& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs,
+    Measures::Frame frame);
 
 // Readings as CSV, one row per frame and side; their means as a text table.
 std::string csv(const std::vector<Measures::Reading>& readings);

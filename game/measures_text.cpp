@@ -24,11 +24,13 @@ Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::Wo
     return measured;
 }
 
-gpu::Status readInto(const std::shared_ptr<Measures>& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs, Measures::Frame frame) {
+gpu::Status readInto(const std::shared_ptr<Measures>& measures, app::Capture& capture, graph::Graph& graph, const render::Outputs& outputs,
+    Measures::Frame frame) {
     if (!outputs.samples) return gpu::Status::ok;
-    return capture.addRaw(graph, outputs.samples, [weak = std::weak_ptr(measures), frame = std::move(frame)](std::span<const std::byte> texels) {
-        if (const auto target = weak.lock()) target->add(frame, texels);
-    });
+    return capture.addRaw(
+        graph, outputs.samples, [weak = std::weak_ptr(measures), frame = std::move(frame)](std::span<const std::byte> texels) {
+            if (const auto target = weak.lock()) target->add(frame, texels);
+        });
 }
 
 std::string csv(const std::vector<Measures::Reading>& readings) {
@@ -51,9 +53,10 @@ std::string summary(const std::vector<Measures::Reading>& readings) {
     if (!last.problem.empty()) return fmt::format("measures: {}\n", last.problem);
     size_t referenced = 0;
     for (const Measures::Reading& reading : readings) referenced += reading.rays > 0.0f;
-    std::string text = fmt::format("measures of {} x {} pixels, step {} px; {} of {} frames have a reference\n", last.size.x, last.size.y, last.step,
-                                   referenced, readings.size());
-    text += fmt::format("{:<4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "side", "D_A", "noise", "noise P99", "bias", "eA", "e<5%", "excess", "F_e");
+    std::string text = fmt::format("measures of {} x {} pixels, step {} px; {} of {} frames have a reference\n", last.size.x, last.size.y,
+        last.step, referenced, readings.size());
+    text += fmt::format("{:<4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "side", "D_A", "noise", "noise P99", "bias", "eA",
+        "e<5%", "excess", "F_e");
     for (size_t i = 0; i < last.sides.size(); ++i) {
         const auto mean = [&](auto of) {
             double sum = 0.0;
@@ -67,10 +70,11 @@ std::string summary(const std::vector<Measures::Reading>& readings) {
             return mean([of](const Measures::Side& s) { return s.errors ? std::optional<float>((*s.errors).*of) : std::nullopt; });
         };
         const auto& noise = last.sides[i].noise;
-        text += fmt::format("{:<4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", i ? "B" : "A", mean([](const Measures::Side& s) { return s.change; }),
-                            noise ? fmt::format("{:.4f}", noise->mean) : "-", noise ? fmt::format("{:.4f}", noise->p99) : "-", error(&truth::Errors::bias),
-                            error(&truth::Errors::eA), error(&truth::Errors::e5), mean([](const Measures::Side& s) { return s.excess; }),
-                            mean([](const Measures::Side& s) { return s.flickerOfError; }));
+        text += fmt::format("{:<4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", i ? "B" : "A",
+            mean([](const Measures::Side& s) { return s.change; }), noise ? fmt::format("{:.4f}", noise->mean) : "-",
+            noise ? fmt::format("{:.4f}", noise->p99) : "-", error(&truth::Errors::bias), error(&truth::Errors::eA),
+            error(&truth::Errors::e5), mean([](const Measures::Side& s) { return s.excess; }),
+            mean([](const Measures::Side& s) { return s.flickerOfError; }));
     }
     return text;
 }

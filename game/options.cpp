@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/arguments.h"
 #include "app/complaint.h"
@@ -82,36 +82,68 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     float fov = 60.0f;
 
     const char* kPicture = "Picture";
-    cli.add_option("--scene", options.scene, "toasters, atrium, sponza, dragon, or the path of a glTF file")->group(kPicture)->capture_default_str();
+    cli.add_option("--scene", options.scene, "toasters, atrium, sponza, dragon, or the path of a glTF file")
+        ->group(kPicture)
+        ->capture_default_str();
     cli.add_option("--method", method, "Obscurance method, by its id (--list-methods)")->group(kPicture);
     cli.add_option("--preset", preset, "Preset of that method")->group(kPicture);
-    cli.add_option("--resolve", resolve, "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history)")->group(kPicture);
+    cli.add_option("--resolve", resolve, "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history)")
+        ->group(kPicture);
     cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
-        ->group(kPicture)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        ->group(kPicture)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     cli.add_option("--offscreen", offscreen, app::kOffScreenHelp)->group(kPicture);
-    cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")->group(kPicture);
+    cli.add_option("--falloff", falloff, "KIND:LENGTH in metres; exponential, linear, quadratic, wendland, constant, or ramp:START:END")
+        ->group(kPicture);
     std::vector<std::string> views;
     for (const render::View known : render::kViews) views.emplace_back(render::name(known));
-    cli.add_option("--view", view, fmt::format("{}, or pass:NAME", fmt::join(views, ", ")))
-        ->group(kPicture)->capture_default_str();
-    cli.add_option("--compare", compare, "METHOD[:PRESET][,PARAMETER=VALUE...]: a second setting B on the same frames, shown right of a divider")->group(kPicture);
-    cli.add_option("--split", options.split, "Position of the divider, fraction of the width")->group(kPicture)->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
+    cli.add_option("--view", view, fmt::format("{}, or pass:NAME", fmt::join(views, ", ")))->group(kPicture)->capture_default_str();
+    cli.add_option(
+           "--compare", compare, "METHOD[:PRESET][,PARAMETER=VALUE...]: a second setting B on the same frames, shown right of a divider")
+        ->group(kPicture);
+    cli.add_option("--split", options.split, "Position of the divider, fraction of the width")
+        ->group(kPicture)
+        ->check(CLI::Range(0.0f, 1.0f))
+        ->capture_default_str();
     cli.add_option("--difference-range", options.differenceRange, "Difference of visibility at which the difference views saturate")
-        ->group(kPicture)->check(CLI::Range(0.001f, 1.0f))->capture_default_str();
-    auto* timeOption = cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
-    cli.add_option("--guard", options.guard, "Guard band around the picture, fraction of each side")->group(kPicture)->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
-    cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")->group(kPicture)->check(CLI::Range(0.001f, 1000.0f))->capture_default_str();
-    cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, in addition to the scene's own")->group(kPicture)->check(CLI::Range(0u, 64u))->capture_default_str();
-    cli.add_flag("--bare", options.bare, "Leave out the toasters that the game adds to a scene, as obscura-evaluate and obscura-flythrough do")->group(kPicture);
-    cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")->group(kPicture);
+        ->group(kPicture)
+        ->check(CLI::Range(0.001f, 1.0f))
+        ->capture_default_str();
+    auto* timeOption =
+        cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
+    cli.add_option("--guard", options.guard, "Guard band around the picture, fraction of each side")
+        ->group(kPicture)
+        ->check(CLI::Range(0.0f, 0.5f))
+        ->capture_default_str();
+    cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")
+        ->group(kPicture)
+        ->check(CLI::Range(0.001f, 1000.0f))
+        ->capture_default_str();
+    cli.add_option("--toys", options.toys, "Walking toasters dropped at the start, in addition to the scene's own")
+        ->group(kPicture)
+        ->check(CLI::Range(0u, 64u))
+        ->capture_default_str();
+    cli.add_flag(
+           "--bare", options.bare, "Leave out the toasters that the game adds to a scene, as obscura-evaluate and obscura-flythrough do")
+        ->group(kPicture);
+    cli.add_flag("--skip-masked", options.skipMasked, "Leave out alpha-masked surfaces (leaves, chains), as stored references do")
+        ->group(kPicture);
 
     app::addVoxelArguments(cli, options.voxels, kPicture);
-    cli.add_option("--voxel-slice", slice, "AXIS or AXIS:METRES: the layer that --view voxel-slice shows, x, y or z; default: at the camera")->group(kPicture);
+    cli.add_option(
+           "--voxel-slice", slice, "AXIS or AXIS:METRES: the layer that --view voxel-slice shows, x, y or z; default: at the camera")
+        ->group(kPicture);
 
     const char* kCamera = "Camera";
-    auto* cameraOption = cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")->group(kCamera);
-    auto* pathOption = cli.add_option("--path", path, "Replay FILE.json (key R records one) in steps of 1/30 s of world time, from its first key or --time; headless: to its end")
-        ->group(kCamera)->excludes(cameraOption);
+    auto* cameraOption =
+        cli.add_option("--camera", camera, "FILE.json, scene:N (the glTF's N-th camera), path:FILE.json or path:FILE.json@SECONDS")
+            ->group(kCamera);
+    auto* pathOption =
+        cli.add_option("--path", path,
+               "Replay FILE.json (key R records one) in steps of 1/30 s of world time, from its first key or --time; headless: to its end")
+            ->group(kCamera)
+            ->excludes(cameraOption);
     cli.add_flag("--flythrough", flythrough, "Follow the scene's flythrough, unless another camera is given")->group(kCamera);
     auto* eyeOption = cli.add_option("--eye", eye, "X,Y,Z of the camera, metres")->group(kCamera);
     auto* targetOption = cli.add_option("--target", target, "X,Y,Z it looks at")->group(kCamera);
@@ -123,14 +155,23 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     const char* kRun = "Run";
     cli.add_flag("--headless", headless, "Render without a window or display")->group(kRun);
-    auto* framesOption = cli.add_option("--frames", frames, "Frames to render, then stop (headless default: 1)")->group(kRun)->check(CLI::Range(1u, 1000000u));
-    cli.add_option("--step", options.step, "World time of a headless frame, seconds; 0 keeps the time fixed")->group(kRun)->check(CLI::Range(0.0f, 10.0f))->capture_default_str();
+    auto* framesOption = cli.add_option("--frames", frames, "Frames to render, then stop (headless default: 1)")
+                             ->group(kRun)
+                             ->check(CLI::Range(1u, 1000000u));
+    cli.add_option("--step", options.step, "World time of a headless frame, seconds; 0 keeps the time fixed")
+        ->group(kRun)
+        ->check(CLI::Range(0.0f, 10.0f))
+        ->capture_default_str();
     cli.add_option("--size", size, "WIDTHxHEIGHT of the picture or window, pixels (1280x720)")->group(kRun);
     cli.add_option("--screenshot", options.screenshot, "PNG of the last frame")->group(kRun);
     cli.add_option("--out", options.out, "Folder for every frame as PNG, summary.html and timings.json")->group(kRun);
-    cli.add_flag("--measure", options.measure, "Measure noise and flicker, and errors where obscura-flythrough has cached a frame's reference; --out: measures.csv")->group(kRun);
-    auto* switchOption = cli.add_option("--switch-test", switchTest, "Run every method this many frames, then switch at each frame; report the worst")
-        ->group(kRun)->check(CLI::Range(1u, 10000u));
+    cli.add_flag("--measure", options.measure,
+           "Measure noise and flicker, and errors where obscura-flythrough has cached a frame's reference; --out: measures.csv")
+        ->group(kRun);
+    auto* switchOption =
+        cli.add_option("--switch-test", switchTest, "Run every method this many frames, then switch at each frame; report the worst")
+            ->group(kRun)
+            ->check(CLI::Range(1u, 10000u));
     cli.add_flag("--full-screen", options.fullScreen, "Start in full screen")->group(kRun);
     cli.add_flag("--no-vsync", noVsync, "Present without waiting for vertical sync")->group(kRun);
     cli.add_flag("--no-present", options.noPresent, "Behave as on a device that cannot present")->group(kRun);
@@ -138,9 +179,15 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     const char* kDevice = "Device";
     cli.add_option("--device", options.device, "Part of the name of the Vulkan device to use (--list-devices)")->group(kDevice);
     cli.add_option("--validation", options.validation, "Vulkan validation: off, core, or sync (core and synchronization)")
-        ->group(kDevice)->check(CLI::IsMember({"off", "core", "sync"}))->capture_default_str();
-    auto* cacheOption = cli.add_option("--pipeline-cache", options.pipelineCache, "Pipeline cache file (default: in the user's cache folder)")->group(kDevice);
-    cli.add_flag("--no-pipeline-cache", options.noPipelineCache, "Do not read or write a pipeline cache")->group(kDevice)->excludes(cacheOption);
+        ->group(kDevice)
+        ->check(CLI::IsMember({"off", "core", "sync"}))
+        ->capture_default_str();
+    auto* cacheOption =
+        cli.add_option("--pipeline-cache", options.pipelineCache, "Pipeline cache file (default: in the user's cache folder)")
+            ->group(kDevice);
+    cli.add_flag("--no-pipeline-cache", options.noPipelineCache, "Do not read or write a pipeline cache")
+        ->group(kDevice)
+        ->excludes(cacheOption);
     cli.add_flag("--verbose", options.verbose, "Print the renderer's log and start-up times")->group(kDevice);
 
     const char* kLists = "Lists";
@@ -190,7 +237,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         throw Complaint(fmt::format("--view {}: no such view; {}, pass:NAME", view, app::choices(view, views)));
     }
     if (!compare.empty()) options.compare.emplace().read(compare);
-    if (render::isDifference(options.view) && !options.compare) throw Complaint(fmt::format("--view {}: needs two methods; give the second with --compare", view));
+    if (render::isDifference(options.view) && !options.compare)
+        throw Complaint(fmt::format("--view {}: needs two methods; give the second with --compare", view));
     return options;
 }
 

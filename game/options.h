@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
 #include <vulkan/vulkan_core.h>
+#include <glm/glm.hpp>
 
 #include "choice.h"
 #include "render/renderer.h"
@@ -19,13 +19,13 @@ enum class Job { play, headless, listMethods, listScenes, listDevices };
 // Source of the camera.
 struct CameraChoice {
     enum class Kind { scene, flythrough, file, lens, path, fixed } kind = Kind::scene;
-    std::filesystem::path file;    // file, path
-    int lens = 0;                  // the n-th camera of the scene's glTF
-    std::optional<float> at;       // path: camera fixed at this time, s
+    std::filesystem::path file;  // file, path
+    int lens = 0;                // the n-th camera of the scene's glTF
+    std::optional<float> at;     // path: camera fixed at this time, s
     glm::vec3 eye{0.0f}, target{0.0f};
     std::optional<float> fovDegrees;  // replaces the field of view of any kind
-    bool replay = false;           // path: fixed time steps from `start`, independent of the clock
-    std::optional<float> start;    // of a replay, s; empty: time of the path's first key
+    bool replay = false;              // path: fixed time steps from `start`, independent of the clock
+    std::optional<float> start;       // of a replay, s; empty: time of the path's first key
 };
 
 struct Options {
@@ -34,7 +34,7 @@ struct Options {
     std::string scene = "atrium";
     std::string device;
     std::string validation = "off";
-    std::string pipelineCache;        // empty: the user's cache folder
+    std::string pipelineCache;  // empty: the user's cache folder
     bool noPipelineCache = false;
     bool verbose = false;
     bool vsync = true;
@@ -48,21 +48,21 @@ struct Options {
     float step = 1.0f / 30.0f;
     float guard = 0.1f;
     float exposure = 1.0f;
-    uint32_t toys = 0;                   // dropped at the start
+    uint32_t toys = 0;  // dropped at the start
     bool skipMasked = false;
     bool measure = false;
     render::Voxelization voxels;
     render::VoxelSlice slice;
     CameraChoice camera;
     Choice choice;
-    std::optional<Choice> compare;       // the second side; its falloff is not used
+    std::optional<Choice> compare;  // the second side; its falloff is not used
     float split = 0.5f;
     float differenceRange = 0.25f;
     render::View view = render::View::final;
     std::string passView;
     std::filesystem::path screenshot;
     std::filesystem::path out;
-    std::string commandLine;             // written into the report
+    std::string commandLine;  // written into the report
 };
 
 // Throws app::Complaint. Empty after printing help or the version.

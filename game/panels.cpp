@@ -28,7 +28,9 @@ namespace {
 void methodMenu(Session& session) {
     const auto methods = ao::methods();
     ImGui::SetNextItemWidth(-1.0f);
-    if (!ImGui::BeginListBox("##methods", {-1.0f, ImGui::GetTextLineHeightWithSpacing() * float(std::min<size_t>(methods.size(), 9)) + 6.0f})) return;
+    if (!ImGui::BeginListBox(
+            "##methods", {-1.0f, ImGui::GetTextLineHeightWithSpacing() * float(std::min<size_t>(methods.size(), 9)) + 6.0f}))
+        return;
     for (size_t i = 0; i < methods.size(); ++i) {
         const std::string label = fmt::format("{}  {}", i < 9 ? std::to_string(i + 1) : std::string(" "), methods[i]->title);
         if (ImGui::Selectable(label.c_str(), i == session.choice.current())) session.selectMethod(i);
@@ -62,18 +64,21 @@ void drawParameters(ao::Values& values) {
         const std::string label = *parameter.unit ? fmt::format("{} [{}]", parameter.id, parameter.unit) : parameter.id;
         if (parameter.choices.size() > 0) {
             int index = std::clamp(int(value + 0.5f), 0, int(parameter.choices.size()) - 1);
-            if (ImGui::Combo(label.c_str(), &index, parameter.choices.items, int(parameter.choices.size()))) values.set(parameter.id, float(index));
+            if (ImGui::Combo(label.c_str(), &index, parameter.choices.items, int(parameter.choices.size())))
+                values.set(parameter.id, float(index));
         } else if (parameter.integer && parameter.minimum == 0.0f && parameter.maximum == 1.0f) {
             bool on = value > 0.5f;
             if (ImGui::Checkbox(label.c_str(), &on)) values.set(parameter.id, on ? 1.0f : 0.0f);
         } else if (parameter.integer) {
             int whole = int(value + (value < 0.0f ? -0.5f : 0.5f));
-            if (ImGui::SliderInt(label.c_str(), &whole, int(parameter.minimum), int(parameter.maximum))) values.set(parameter.id, float(whole));
+            if (ImGui::SliderInt(label.c_str(), &whole, int(parameter.minimum), int(parameter.maximum)))
+                values.set(parameter.id, float(whole));
         } else {
             // Ranges over several powers of ten need a logarithmic slider.
             const float least = parameter.minimum > 0.0f ? parameter.minimum : parameter.initial;
             const bool wide = least > 0.0f && parameter.maximum / least > 50.0f;
-            if (ImGui::SliderFloat(label.c_str(), &value, parameter.minimum, parameter.maximum, "%.4g", wide ? ImGuiSliderFlags_Logarithmic : 0))
+            if (ImGui::SliderFloat(
+                    label.c_str(), &value, parameter.minimum, parameter.maximum, "%.4g", wide ? ImGuiSliderFlags_Logarithmic : 0))
                 values.set(parameter.id, value);
         }
         tip(parameter.sentence);
@@ -116,11 +121,13 @@ void viewPanel(Session& session) {
     tip("Shows the picture, a buffer of the frame, or the output of any pass.");
     ImGui::SliderFloat("exposure", &session.exposure, 0.05f, 20.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
     ImGui::SliderFloat("guard band", &session.guard, 0.0f, 0.5f, "%.2f");
-    tip("Renders buffers beyond the picture by this fraction of each side, so that occluders outside it count. Costs the time of the extra pixels; at 0 occlusion is missing along the borders.");
+    tip("Renders buffers beyond the picture by this fraction of each side, so that occluders outside it count. Costs the time of the extra "
+        "pixels; at 0 occlusion is missing along the borders.");
 }
 
 bool wantsVoxels(const Session& session) {
-    return ((ao::needs(session.choice.values()) | (session.comparing ? ao::needs(session.other.values()) : 0)) & ao::kVolume) || render::isVoxels(session.view);
+    return ((ao::needs(session.choice.values()) | (session.comparing ? ao::needs(session.other.values()) : 0)) & ao::kVolume) ||
+           render::isVoxels(session.view);
 }
 
 void voxelPanel(Session& session) {
@@ -130,17 +137,22 @@ void voxelPanel(Session& session) {
         ImGui::Combo("slice axis", &slice.axis, "x\000y\000z\0");
         bool atEye = !slice.at;
         float at = slice.at.value_or(session.camera().eye[slice.axis]);
-        if (ImGui::SliderFloat("slice at [m]", &at, session.stage.bounds.min[slice.axis], session.stage.bounds.max[slice.axis], "%.2f")) slice.at = at;
+        if (ImGui::SliderFloat("slice at [m]", &at, session.stage.bounds.min[slice.axis], session.stage.bounds.max[slice.axis], "%.2f"))
+            slice.at = at;
         else if (ImGui::Checkbox("at the camera", &atEye)) slice.at = atEye ? std::nullopt : std::optional(at);
     }
     int voxelizer = int(voxels.voxelizer), shell = int(voxels.shell), side = std::countr_zero(voxels.cells) - 6;
-    if (ImGui::Combo("voxelizer", &voxelizer, app::kVoxelizerNames, int(std::size(app::kVoxelizerNames)))) voxels.voxelizer = render::Voxelizer(voxelizer);
-    tip("openvdb: a worker thread voxelizes static geometry once, and objects again when they move. gpu: everything is voxelized every frame.");
+    if (ImGui::Combo("voxelizer", &voxelizer, app::kVoxelizerNames, int(std::size(app::kVoxelizerNames))))
+        voxels.voxelizer = render::Voxelizer(voxelizer);
+    tip("openvdb: a worker thread voxelizes static geometry once, and objects again when they move. gpu: everything is voxelized every "
+        "frame.");
     int structure = int(voxels.structure);
-    if (ImGui::Combo("voxel structure", &structure, app::kStructureNames, int(std::size(app::kStructureNames)))) voxels.structure = ao::VolumeStructure(structure);
+    if (ImGui::Combo("voxel structure", &structure, app::kStructureNames, int(std::size(app::kStructureNames))))
+        voxels.structure = ao::VolumeStructure(structure);
     tip("dense: a cube of bits around the camera. nanovdb: the whole world as a sparse grid, built by OpenVDB; slower to trace.");
     if (ImGui::Combo("voxel shell", &shell, app::kShellNames, int(std::size(app::kShellNames)))) voxels.shell = voxel::Shell(shell);
-    tip("conservative: every cell that a surface touches. thin: the fewest cells that no path across cell faces passes; short rays miss some surfaces.");
+    tip("conservative: every cell that a surface touches. thin: the fewest cells that no path across cell faces passes; short rays miss "
+        "some surfaces.");
     if (ImGui::Combo("voxel window", &side, "64\000128\000256\000512\0")) voxels.cells = 64u << side;
     tip("Cells per side of the voxel cube around the camera. Memory grows with its cube; at few cells distant occluders are missing.");
 }
@@ -167,7 +179,8 @@ void timePanel(Session& session) {
     if (ImGui::Button(session.replaying() ? "Stop replay" : "Replay")) session.act(Action::replay, 0);
     tip("Replays the last recorded path in steps of 1/30 s of world time, so that every replay draws the same frames.");
     ImGui::SameLine();
-    ImGui::TextUnformatted(session.recorder.running() ? fmt::format("{:.1f} s", session.recorder.seconds()).c_str() : session.replayFile.filename().c_str());
+    ImGui::TextUnformatted(
+        session.recorder.running() ? fmt::format("{:.1f} s", session.recorder.seconds()).c_str() : session.replayFile.filename().c_str());
     if (ImGui::Button("Drop a toaster")) session.act(Action::dropToy, 0);
     ImGui::SameLine();
     if (ImGui::Button("Remove one")) session.act(Action::removeToy, 0);
@@ -181,10 +194,12 @@ void factsPanel(Session& session) {
     const double mebi = 1.0 / (1024.0 * 1024.0);
     const scene::Camera camera = session.camera();
     ImGui::TextUnformatted(fmt::format("{}\n{} triangles, {} drawn in {} draws\n{} instances", session.stage.info.title, facts.triangles,
-                                       facts.drawn, facts.draws, facts.instances).c_str());
+        facts.drawn, facts.draws, facts.instances)
+            .c_str());
     ImGui::TextUnformatted(fmt::format("memory {:.1f} MiB: frame {:.1f}, textures {:.1f}, geometry {:.1f}",
-                                       double(session.engine.device().memoryUse()) * mebi, double(session.engine.frames().executor().poolBytes()) * mebi,
-                                       double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi).c_str());
+        double(session.engine.device().memoryUse()) * mebi, double(session.engine.frames().executor().poolBytes()) * mebi,
+        double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi)
+            .c_str());
     if (const voxel::Voxels* voxels = session.engine.renderer().voxels(); voxels && wantsVoxels(session))
         ImGui::TextUnformatted(voxelFacts(*voxels, session.statistics).c_str());
     ImGui::TextUnformatted(fmt::format("eye {:.2f} {:.2f} {:.2f}", camera.eye.x, camera.eye.y, camera.eye.z).c_str());
@@ -197,7 +212,8 @@ void errorPanel(const std::vector<std::string>& errors) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x * 0.5f, size.y - 12.0f}, ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {size.x * 0.9f, size.y * 0.4f});
-    if (ImGui::Begin("Shader errors: the last valid program stays in use", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
+    if (ImGui::Begin("Shader errors: the last valid program stays in use", nullptr,
+            ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
         ImGui::PushStyleColor(ImGuiCol_Text, {1.0f, 0.55f, 0.45f, 1.0f});
         for (const std::string& error : errors) ImGui::TextUnformatted(error.c_str());
         ImGui::PopStyleColor();
@@ -209,7 +225,8 @@ void noticeLine(const Session& session) {
     if (session.notice.empty() || app::now() > session.noticeUntil) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x * 0.5f, 12.0f}, ImGuiCond_Always, {0.5f, 0.0f});
-    constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
+    constexpr ImGuiWindowFlags kPlain =
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
     if (ImGui::Begin("##notice", nullptr, kPlain)) ImGui::TextUnformatted(session.notice.c_str());
     ImGui::End();
 }
@@ -277,7 +294,8 @@ void drawKeys() {
     ImGui::SetNextWindowPos({size.x * 0.5f, size.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.97f);
     ImGui::SetNextWindowFocus();  // above the panels
-    if (ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) ImGui::TextUnformatted(keyPage(false).c_str());
+    if (ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse))
+        ImGui::TextUnformatted(keyPage(false).c_str());
     ImGui::End();
 }
 

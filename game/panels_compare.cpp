@@ -15,7 +15,8 @@ constexpr ImU32 kLine = IM_COL32(255, 255, 255, 220), kShade = IM_COL32(0, 0, 0,
 
 std::string sideLabel(const Session& session, const char* side, const ao::Values& values) {
     const std::string text = fmt::format("{}  {}", side, label(values));
-    return session.engine.device().caps().timestamps ? fmt::format("{}  {:.2f} ms", text, session.statistics.total(std::string(side) + ".")) : text;
+    return session.engine.device().caps().timestamps ? fmt::format("{}  {:.2f} ms", text, session.statistics.total(std::string(side) + "."))
+                                                     : text;
 }
 
 }  // namespace
@@ -23,7 +24,8 @@ std::string sideLabel(const Session& session, const char* side, const ao::Values
 void drawComparison(Session& session) {
     bool on = session.comparing;
     if (ImGui::Checkbox("compare with B", &on)) session.setComparing(on);
-    tip("A is left of the divider, B right of it: two methods, or one with two settings, on the same frame with the same falloff, each with its own history.");
+    tip("A is left of the divider, B right of it: two methods, or one with two settings, on the same frame with the same falloff, each "
+        "with its own history.");
     if (!session.comparing) return;
     ImGui::SameLine();
     if (ImGui::Button("Swap")) session.act(Action::swapSides, 0);
@@ -43,7 +45,8 @@ void drawComparison(Session& session) {
     ImGui::PopID();
     ImGui::SliderFloat("divider", &session.split, 0.0f, 1.0f, "%.2f");
     ImGui::SliderFloat("difference range", &session.differenceRange, 0.005f, 1.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
-    tip("Difference of visibility at which the difference views saturate: to white in difference, to pale orange or pale blue in signed-difference.");
+    tip("Difference of visibility at which the difference views saturate: to white in difference, to pale orange or pale blue in "
+        "signed-difference.");
 }
 
 void drawDivider(const Session& session) {
@@ -56,7 +59,8 @@ void drawDivider(const Session& session) {
         draw->AddLine({x, 0.0f}, {x, size.y}, kShade, 3.0f);
         draw->AddLine({x, 0.0f}, {x, size.y}, kLine, 1.0f);
         draw->AddCircleFilled({x, 0.5f * size.y}, 6.0f, kLine);
-        if (!ImGui::GetIO().WantCaptureMouse && std::fabs(ImGui::GetIO().MousePos.x - x) <= 8.0f) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        if (!ImGui::GetIO().WantCaptureMouse && std::fabs(ImGui::GetIO().MousePos.x - x) <= 8.0f)
+            ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     }
     const float margin = ImGui::GetFontSize() * 0.5f, line = ImGui::GetTextLineHeight();
     const float y = size.y - line - 2.0f * margin;

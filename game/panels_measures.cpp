@@ -34,13 +34,15 @@ void drawMeasures(const Session& session) {
         if (reading->sides.size() > 1) ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthFixed, width);
         ImGui::TableHeadersRow();
         using Side = Measures::Side;
-        row(*reading, "change D_A", "Mean change between frames along motion, over pixels whose surface is visible in both. Mean of the last 32 frames.",
+        row(*reading, "change D_A",
+            "Mean change between frames along motion, over pixels whose surface is visible in both. Mean of the last 32 frames.",
             [](const Side& s) { return s.change; });
         const auto noise = [](float truth::StaticNoise::Result::* of) {
             return [of](const Side& s) { return s.noise ? std::optional<float>((*s.noise).*of) : std::nullopt; };
         };
-        const char* still = "Standard deviation of each pixel over frames with fixed camera, world and settings: mean and 99th percentile over pixels. "
-                            "Starts after 32 still frames.";
+        const char* still =
+            "Standard deviation of each pixel over frames with fixed camera, world and settings: mean and 99th percentile over pixels. "
+            "Starts after 32 still frames.";
         row(*reading, "static noise", still, noise(&truth::StaticNoise::Result::mean));
         row(*reading, "  P99", still, noise(&truth::StaticNoise::Result::p99));
         const auto error = [](float truth::Errors::* of) {
@@ -49,14 +51,16 @@ void drawMeasures(const Session& session) {
         row(*reading, "error eA", "Mean absolute difference from the ray-traced reference of this frame.", error(&truth::Errors::eA));
         row(*reading, "  bias", "Mean of picture minus reference; above 0 is too bright.", error(&truth::Errors::bias));
         row(*reading, "  share < 5 %", "Fraction of pixels whose error is below 0.05.", error(&truth::Errors::e5));
-        row(*reading, "excess flicker F", "Change D_A minus the change of the reference. Mean of the last 32 frames.", [](const Side& s) { return s.excess; });
+        row(*reading, "excess flicker F", "Change D_A minus the change of the reference. Mean of the last 32 frames.",
+            [](const Side& s) { return s.excess; });
         row(*reading, "flicker of error F_e", "Root mean square change of the error along motion. Mean of the last 32 frames.",
             [](const Side& s) { return s.flickerOfError; });
         ImGui::EndTable();
     }
     ImGui::PushTextWrapPos(0.0f);
     if (reading->stillFrames) ImGui::TextUnformatted(fmt::format("noise over {} still frames", reading->stillFrames).c_str());
-    else if (reading->settling) ImGui::TextUnformatted(fmt::format("still for {} of {} frames", reading->settling, Measures::kSettling).c_str());
+    else if (reading->settling)
+        ImGui::TextUnformatted(fmt::format("still for {} of {} frames", reading->settling, Measures::kSettling).c_str());
     else ImGui::TextUnformatted("noise is measured while camera and world stand still");
     if (reading->rays > 0.0f) {
         ImGui::TextUnformatted(fmt::format("reference: {:.0f} rays a pixel", reading->rays).c_str());
@@ -67,9 +71,10 @@ void drawMeasures(const Session& session) {
         if (hint.starts_with("obscura-flythrough") && ImGui::Button("Copy command")) ImGui::SetClipboardText(hint.c_str());
     }
     const double gpu = session.statistics.total("samples") + session.statistics.total("capture");
-    ImGui::TextDisabled("%s", fmt::format("{} x {}, every {}; GPU {:.2f} ms, worker {:.1f} ms; {} frames skipped", reading->size.x, reading->size.y,
-                                          reading->step == 1 ? "pixel" : fmt::format("{} pixels", reading->step), gpu,
-                                          reading->milliseconds, session.measures->leftOut()).c_str());
+    ImGui::TextDisabled("%s",
+        fmt::format("{} x {}, every {}; GPU {:.2f} ms, worker {:.1f} ms; {} frames skipped", reading->size.x, reading->size.y,
+            reading->step == 1 ? "pixel" : fmt::format("{} pixels", reading->step), gpu, reading->milliseconds, session.measures->leftOut())
+            .c_str());
     ImGui::PopTextWrapPos();
 }
 

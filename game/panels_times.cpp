@@ -25,7 +25,8 @@ void plot(const app::Series& series, float height) {
     // The scale follows the 95th percentile, so that one long frame does not flatten the plot.
     const double top = std::max(p95 * 1.4, 1e-3);
     const auto at = [&](size_t i, double value) {
-        return ImVec2(from.x + width * float(i) / float(series.values.size() - 1), from.y + height * (1.0f - float(std::min(value / top, 1.0))));
+        return ImVec2(
+            from.x + width * float(i) / float(series.values.size() - 1), from.y + height * (1.0f - float(std::min(value / top, 1.0))));
     };
     std::vector<ImVec2> points(series.values.size());
     for (size_t i = 0; i < points.size(); ++i) points[i] = at(i, series.values[i]);
@@ -65,10 +66,12 @@ void drawTimes(const Session& session) {
     const app::Statistics& times = session.statistics;
     const double frame = times.frame().median();
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(fmt::format("frame {:.2f} ms ({:.0f}/s)  gpu {:.2f} ms  cpu {:.2f} ms", frame, frame > 0.0 ? 1000.0 / frame : 0.0,
-                                       times.gpu().median(), times.cpu().median()).c_str());
+    ImGui::TextUnformatted(fmt::format("frame {:.2f} ms ({:.0f}/s)  gpu {:.2f} ms  cpu {:.2f} ms", frame,
+        frame > 0.0 ? 1000.0 / frame : 0.0, times.gpu().median(), times.cpu().median())
+            .c_str());
     if (!session.switches.values.empty())
-        ImGui::TextUnformatted(fmt::format("worst frame at a switch {:.1f} ms, median {:.1f} ms", session.switches.worst(), session.steady.median()).c_str());
+        ImGui::TextUnformatted(
+            fmt::format("worst frame at a switch {:.1f} ms, median {:.1f} ms", session.switches.worst(), session.steady.median()).c_str());
     ImGui::PopTextWrapPos();
     const auto& passes = times.passes();
     const auto pass = std::find_if(passes.begin(), passes.end(), [](const app::Series& s) { return s.name == chosen; });

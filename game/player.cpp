@@ -7,9 +7,7 @@ namespace obscura::game {
 
 namespace {
 
-glm::vec3 forwardOf(float yaw, float pitch) {
-    return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
-}
+glm::vec3 forwardOf(float yaw, float pitch) { return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)}; }
 
 }  // namespace
 

@@ -17,10 +17,10 @@ class Recorder {
 public:
     void start(const std::string& scene);  // of content/scenes.json, or a glTF file
     bool running() const { return m_running; }
-    float seconds() const;                 // recorded so far
+    float seconds() const;  // recorded so far
     // Adds nothing while the world is paused. False: time went backwards, which a path cannot store.
     bool add(float time, const scene::Camera& camera);
-    scene::CameraPath finish();            // does not loop; has no keys if none was added
+    scene::CameraPath finish();  // does not loop; has no keys if none was added
 
 private:
     scene::CameraPath m_path;

@@ -27,8 +27,8 @@ std::string image(const app::Picture& picture, const std::string& caption) {
     // Halved to at most 1000 px of width, which keeps the page small; frames in full size are separate files.
     app::Picture shown = picture;
     while (shown.width > 1000) shown = shown.half();
-    return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n", escape(caption),
-                       app::base64(app::encodePng(shown)));
+    return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        escape(caption), app::base64(app::encodePng(shown)));
 }
 
 constexpr const char* kStyle =
@@ -40,8 +40,10 @@ constexpr const char* kStyle =
 
 std::string row(const app::Series& series, double longest) {
     const double median = series.median();
-    return fmt::format("<tr><td>{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td style=\"text-align:left\"><span class=\"bar\" style=\"width:{:.1f}em\"></span></td></tr>\n",
-                       escape(series.name), median, series.p95(), series.worst(), longest > 0.0 ? 16.0 * median / longest : 0.0);
+    return fmt::format(
+        "<tr><td>{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td style=\"text-align:left\"><span class=\"bar\" "
+        "style=\"width:{:.1f}em\"></span></td></tr>\n",
+        escape(series.name), median, series.p95(), series.worst(), longest > 0.0 ? 16.0 * median / longest : 0.0);
 }
 
 nlohmann::ordered_json numbers(const app::Series& series) {
@@ -72,21 +74,29 @@ std::string voxelFacts(const voxel::Voxels& voxels, const app::Statistics& times
             if (pass.name.ends_with(ending)) sum += pass.median(), any = true;
         return any ? fmt::format("{:.2f} ms", sum) : std::string("none");
     };
-    const std::string window = voxels.options().nano ? fmt::format("NanoVDB grid of {:.2f} MiB on the GPU", double(v.windowBytes) * mebi) : fmt::format("window of {} cells a side, {:.1f} MiB on the GPU", voxels.options().cells, double(v.windowBytes) * mebi);
+    const std::string window = voxels.options().nano ? fmt::format("NanoVDB grid of {:.2f} MiB on the GPU", double(v.windowBytes) * mebi)
+                                                     : fmt::format("window of {} cells a side, {:.1f} MiB on the GPU",
+                                                           voxels.options().cells, double(v.windowBytes) * mebi);
     if (!voxels.options().bits)
-        return fmt::format("voxels: {}, voxelized there every frame\nclear {}, rasterise {}, trace {}", window, spent("voxels.clear"), spent("voxels.rasterise"), spent(".trace"));
+        return fmt::format("voxels: {}, voxelized there every frame\nclear {}, rasterise {}, trace {}", window, spent("voxels.clear"),
+            spent("voxels.rasterise"), spent(".trace"));
     const std::string rest = v.progress < 1.0f ? fmt::format("building, {:.0f} %", 100.0f * v.progress)
-                                               : fmt::format("{} static cells in {:.2f} MiB of OpenVDB, {} in {:.0f} ms", v.resting.cells, double(v.resting.bytes) * mebi,
-                                                             v.resting.fromCache ? "read from the cache" : "built", v.resting.milliseconds);
-    return fmt::format("voxels: {}\n{} moving objects of {} cells in {:.2f} MiB, {} rebuilt; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n{}, {:.1f} KiB in the last upload\n"
-                       "upload {}, trace {}", rest, v.objects, v.objectCells, double(v.objectBytes) * mebi, v.redone, v.workerMilliseconds, v.waitMilliseconds, v.worstWait,
-                       v.late, window, double(v.changedBytes) / 1024.0, spent("voxels.upload"), spent(".trace"));
+                                               : fmt::format("{} static cells in {:.2f} MiB of OpenVDB, {} in {:.0f} ms", v.resting.cells,
+                                                     double(v.resting.bytes) * mebi, v.resting.fromCache ? "read from the cache" : "built",
+                                                     v.resting.milliseconds);
+    return fmt::format(
+        "voxels: {}\n{} moving objects of {} cells in {:.2f} MiB, {} rebuilt; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n{}, "
+        "{:.1f} KiB in the last upload\n"
+        "upload {}, trace {}",
+        rest, v.objects, v.objectCells, double(v.objectBytes) * mebi, v.redone, v.workerMilliseconds, v.waitMilliseconds, v.worstWait,
+        v.late, window, double(v.changedBytes) / 1024.0, spent("voxels.upload"), spent(".trace"));
 }
 
 std::string Report::table() const {
     size_t width = 20;
     for (const app::Series& pass : statistics.passes()) width = std::max(width, pass.name.size());
-    std::string text = fmt::format("{:<{}} {:>10} {:>10} {:>10}   ms, {} frames\n", "pass", width, "median", "p95", "worst", statistics.gpu().values.size());
+    std::string text = fmt::format(
+        "{:<{}} {:>10} {:>10} {:>10}   ms, {} frames\n", "pass", width, "median", "p95", "worst", statistics.gpu().values.size());
     const auto line = [&](const app::Series& s, const std::string& name) {
         text += fmt::format("{:<{}} {:>10.3f} {:>10.3f} {:>10.3f}\n", name, width, s.median(), s.p95(), s.worst());
     };
@@ -124,18 +134,17 @@ void Report::write(const std::filesystem::path& folder) const {
         {"cpu", numbers(statistics.cpu())},
         {"frame", numbers(statistics.frame())},
         {"memoryBytes", engine.device().memoryUse()},
-        {"startSeconds",
-         {{"device", engine.started.device},
-          {"scene", engine.started.scene},
-          {"pipelines", engine.started.pipelines},
-          {"warmUp", engine.started.warmUp},
-          {"pipelineCacheFound", engine.started.cacheFound}}},
+        {"startSeconds", {{"device", engine.started.device}, {"scene", engine.started.scene}, {"pipelines", engine.started.pipelines},
+                             {"warmUp", engine.started.warmUp}, {"pipelineCacheFound", engine.started.cacheFound}}},
     };
-    if (options.compare) timings["compare"] = {{"method", options.compare->info().id}, {"parameters", parametersOf(options.compare->values())}, {"split", options.split}};
+    if (options.compare)
+        timings["compare"] = {
+            {"method", options.compare->info().id}, {"parameters", parametersOf(options.compare->values())}, {"split", options.split}};
     app::writeFile(folder / "timings.json", timings.dump(2) + "\n");
 
-    std::string page = fmt::format("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Obscura: {0}, {1}</title><style>{2}</style>\n<h1>{0}, {3}</h1>\n",
-                                   escape(stage.info.title), choice.info().id, kStyle, escape(choice.info().title));
+    std::string page = fmt::format(
+        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Obscura: {0}, {1}</title><style>{2}</style>\n<h1>{0}, {3}</h1>\n",
+        escape(stage.info.title), choice.info().id, kStyle, escape(choice.info().title));
     for (const ReportPicture& picture : pictures) {
         page += "<div class=\"pair\">\n" + image(picture.final, fmt::format("frame {}, {:.2f} s", picture.frame, picture.time));
         page += image(picture.visibility, "visibility") + "</div>\n";
@@ -145,8 +154,10 @@ void Report::write(const std::filesystem::path& folder) const {
     for (const app::Series& pass : statistics.passes()) longest = std::max(longest, pass.median());
     for (const app::Series& pass : statistics.passes()) page += row(pass, longest);
     for (const app::Series* total : {&statistics.gpu(), &statistics.cpu(), &statistics.frame()}) page += row(*total, 0.0);
-    page += fmt::format("</table>\n<p>gpu: first to last timestamp of a frame; cpu: recording and submitting; frame: from one to the next, writing "
-                        "of pictures included. {} frames, the first {} not timed.</p>\n<h2>Facts</h2>\n<dl>\n", frames, dropped);
+    page += fmt::format(
+        "</table>\n<p>gpu: first to last timestamp of a frame; cpu: recording and submitting; frame: from one to the next, writing "
+        "of pictures included. {} frames, the first {} not timed.</p>\n<h2>Facts</h2>\n<dl>\n",
+        frames, dropped);
     const std::pair<const char*, std::string> rows[] = {
         {"device", caps.deviceName},
         {"picture", fmt::format("{} x {}, guard band {:g}", options.size.width, options.size.height, options.guard)},
@@ -157,10 +168,10 @@ void Report::write(const std::filesystem::path& folder) const {
         {"triangles", fmt::format("{} ({} drawn, {} draws)", facts.triangles, facts.drawn, facts.draws)},
         {"instances", fmt::format("{} ({} dropped toasters)", facts.instances, stage.toys())},
         {"memory", fmt::format("{:.1f} MiB on the device; textures {:.1f}, geometry {:.1f}", double(engine.device().memoryUse()) * mebi,
-                               double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi)},
-        {"start", fmt::format("{:.2f} s: device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}", engine.started.total(),
-                              engine.started.device, engine.started.scene, engine.started.pipelines, engine.started.warmUp,
-                              engine.started.cacheFound ? "found" : "not found")},
+                       double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi)},
+        {"start", fmt::format("{:.2f} s: device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}",
+                      engine.started.total(), engine.started.device, engine.started.scene, engine.started.pipelines, engine.started.warmUp,
+                      engine.started.cacheFound ? "found" : "not found")},
         {"command", options.commandLine},
     };
     for (const auto& [term, text] : rows) page += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, escape(text));

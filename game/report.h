@@ -25,8 +25,8 @@ struct Report {
     Engine& engine;
     const Stage& stage;
     const app::Statistics& statistics;
-    uint32_t frames = 0;    // rendered
-    uint32_t dropped = 0;   // of these, not timed
+    uint32_t frames = 0;   // rendered
+    uint32_t dropped = 0;  // of these, not timed
     std::vector<ReportPicture> pictures;
 
     std::string table() const;  // per-pass times as text

@@ -13,17 +13,29 @@ namespace obscura::game {
 
 namespace {
 
-constexpr float kFrame = 1.0f / 30.0f;   // step of the keys , and ., seconds
+constexpr float kFrame = 1.0f / 30.0f;  // step of the keys , and ., seconds
 constexpr size_t kMaxPending = 3;       // frames that may wait for the measuring worker
-constexpr float kGrab = 8.0f;            // distance from the divider at which it can be grabbed, screen units
-constexpr float kDividerStep = 0.02f;    // of the width
+constexpr float kGrab = 8.0f;           // distance from the divider at which it can be grabbed, screen units
+constexpr float kDividerStep = 0.02f;   // of the width
 
 }  // namespace
 
 Session::Session(const Options& given, Stage& stage_, Engine& engine_)
-    : options(given), stage(stage_), engine(engine_), choice(given.choice), comparing(given.compare.has_value()), split(given.split),
-      differenceRange(given.differenceRange), view(given.view), passView(given.passView), time(given.time),
-      exposure(given.exposure * stage_.info.exposure), guard(given.guard), voxels(given.voxels), slice(given.slice), m_lastMethod(given.choice.current()) {
+    : options(given),
+      stage(stage_),
+      engine(engine_),
+      choice(given.choice),
+      comparing(given.compare.has_value()),
+      split(given.split),
+      differenceRange(given.differenceRange),
+      view(given.view),
+      passView(given.passView),
+      time(given.time),
+      exposure(given.exposure * stage_.info.exposure),
+      guard(given.guard),
+      voxels(given.voxels),
+      slice(given.slice),
+      m_lastMethod(given.choice.current()) {
     if (given.measure) act(Action::measure, 0);
     if (given.compare) other = *given.compare;
     else if (other.current() == choice.current()) other.selectNext(1);
@@ -86,23 +98,24 @@ void Session::compareAct(Action action) {
             choice.falloff = falloff;
             return;
         }
-        case Action::copySide:
-            other = choice;
-            return say(fmt::format("B: {}", label(other.values())));
+        case Action::copySide: other = choice; return say(fmt::format("B: {}", label(other.values())));
         default: split = std::clamp(split + (action == Action::dividerLeft ? -kDividerStep : kDividerStep), 0.0f, 1.0f);
     }
 }
 
 bool Session::dragDivider(const app::Window& window, bool onPanel) {
     for (const app::Window::Click& click : window.clicked())
-        if (comparing && !onPanel && click.button == GLFW_MOUSE_BUTTON_LEFT && std::fabs(click.at.x - split * window.screenSize().x) <= kGrab) m_dragging = true;
+        if (comparing && !onPanel && click.button == GLFW_MOUSE_BUTTON_LEFT &&
+            std::fabs(click.at.x - split * window.screenSize().x) <= kGrab)
+            m_dragging = true;
     m_dragging = m_dragging && comparing && window.button(GLFW_MOUSE_BUTTON_LEFT);
     if (m_dragging) split = std::clamp(window.mouse().x / window.screenSize().x, 0.0f, 1.0f);
     return m_dragging;
 }
 
 std::string Session::comparison() const {
-    return fmt::format("{} {} --falloff {} --split {:.3f}", asOptions(choice.values(), false), asOptions(other.values(), true), falloffText(choice.falloff), split);
+    return fmt::format("{} {} --falloff {} --split {:.3f}", asOptions(choice.values(), false), asOptions(other.values(), true),
+        falloffText(choice.falloff), split);
 }
 
 void Session::follow(bool on) {
@@ -116,7 +129,8 @@ void Session::follow(bool on) {
 void Session::startReplay() {
     if (replayFile.empty()) return say("no recorded path: press R to start and to stop recording");
     const scene::CameraPath& path = stage.pathOf(replayFile);
-    replayStart = options.camera.replay && replayFile == options.camera.file && options.camera.start ? *options.camera.start : path.keys.front().time;
+    replayStart =
+        options.camera.replay && replayFile == options.camera.file && options.camera.start ? *options.camera.start : path.keys.front().time;
     follow(true);
     m_follow = {.kind = CameraChoice::Kind::path, .file = replayFile, .fovDegrees = options.camera.fovDegrees, .replay = true};
     m_replayed = 0;
@@ -147,8 +161,10 @@ std::string Session::referenceHint(const Measures::Reading& reading) const {
     if (stage.toys() > 0) return "references leave out dropped toasters: Delete removes them";
     const scene::CameraPath& path = stage.pathOf(replayFile);
     const std::string from = replayStart == path.keys.front().time ? "" : fmt::format("@{}", replayStart);
-    return fmt::format("obscura-flythrough --flythrough {}{} --length {} --size {}x{} --falloff {} --method none --filter raw --no-pictures --out out/references",
-                       replayFile.string(), from, replayFrames(path, replayStart), reading.size.x, reading.size.y, falloffText(choice.falloff));
+    return fmt::format(
+        "obscura-flythrough --flythrough {}{} --length {} --size {}x{} --falloff {} --method none --filter raw --no-pictures --out "
+        "out/references",
+        replayFile.string(), from, replayFrames(path, replayStart), reading.size.x, reading.size.y, falloffText(choice.falloff));
 }
 
 void Session::act(Action action, int key) {
@@ -162,7 +178,7 @@ void Session::act(Action action, int key) {
         case Action::nextView: {
             const auto at = std::find(std::begin(render::kViews), std::end(render::kViews), view);
             const auto next = std::find_if(at == std::end(render::kViews) ? at : at + 1, std::end(render::kViews),
-                                           [&](render::View v) { return comparing || !render::isDifference(v); });
+                [&](render::View v) { return comparing || !render::isDifference(v); });
             view = next == std::end(render::kViews) ? render::kViews[0] : *next;
             say(fmt::format("view: {}", render::name(view)));
             break;
@@ -195,7 +211,8 @@ void Session::act(Action action, int key) {
         case Action::record:
             if (recorder.running()) return stopRecording();
             recorder.start(options.scene);
-            say(paused ? "recording the camera path; world time is paused: Space resumes it, R stops recording" : "recording the camera path; R stops");
+            say(paused ? "recording the camera path; world time is paused: Space resumes it, R stops recording"
+                       : "recording the camera path; R stops");
             break;
         case Action::replay:
             if (replaying()) return follow(false), say("free camera");
@@ -205,8 +222,14 @@ void Session::act(Action action, int key) {
         case Action::pause: paused = !paused; break;
         case Action::stepBack: stepTime(-kFrame); break;
         case Action::stepForward: stepTime(kFrame); break;
-        case Action::faster: pace = std::min(pace * 2.0f, 8.0f); say(fmt::format("time x {:g}", pace)); break;
-        case Action::slower: pace = std::max(pace * 0.5f, 0.125f); say(fmt::format("time x {:g}", pace)); break;
+        case Action::faster:
+            pace = std::min(pace * 2.0f, 8.0f);
+            say(fmt::format("time x {:g}", pace));
+            break;
+        case Action::slower:
+            pace = std::max(pace * 0.5f, 0.125f);
+            say(fmt::format("time x {:g}", pace));
+            break;
         case Action::toggleWalk:
             player.walking = !player.walking;
             follow(false);
@@ -230,8 +253,14 @@ void Session::act(Action action, int key) {
                                     : "toasters.glb is missing; build the target content, which makes it");
             break;
         }
-        case Action::removeToy: stage.removeToy(); say(fmt::format("{} toasters dropped", stage.toys())); break;
-        case Action::clearToys: stage.clearToys(); say("no toasters dropped"); break;
+        case Action::removeToy:
+            stage.removeToy();
+            say(fmt::format("{} toasters dropped", stage.toys()));
+            break;
+        case Action::clearToys:
+            stage.clearToys();
+            say("no toasters dropped");
+            break;
     }
 }
 

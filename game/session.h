@@ -23,7 +23,7 @@ public:
     Stage& stage;
     Engine& engine;
     Choice choice;
-    Choice other;            // side B of the comparison; its falloff is not used
+    Choice other;  // side B of the comparison; its falloff is not used
     bool comparing = false;
     float split = 0.5f, differenceRange = 0.25f;
     Player player;
@@ -31,8 +31,8 @@ public:
 
     render::View view = render::View::final;
     std::string passView;
-    float time = 0.0f;       // seconds, of the world
-    float pace = 1.0f;       // world seconds per second
+    float time = 0.0f;  // seconds, of the world
+    float pace = 1.0f;  // world seconds per second
     float exposure = 1.0f, guard = 0.1f;
     render::Voxelization voxels;
     render::VoxelSlice slice;
@@ -41,8 +41,8 @@ public:
     bool cut = true;         // camera or time of the next frame jumped: histories are discarded
     bool showOverlay = true, showKeys = false;
     bool wantsScreenshot = false, wantsFullScreen = false, wantsQuit = false;
-    std::string notice;      // one line, shown until noticeUntil
-    double noticeUntil = 0.0;  // ms, of app::now()
+    std::string notice;                  // one line, shown until noticeUntil
+    double noticeUntil = 0.0;            // ms, of app::now()
     std::vector<std::string> passNames;  // of the last frame, for the view menu
 
     void act(Action action, int key);
@@ -55,19 +55,19 @@ public:
     void setComparing(bool on);
     // Moves the divider with the pointer while it is dragged; a drag starts outside the panels. True while it is dragged.
     bool dragDivider(const app::Window& window, bool onPanel);
-    std::string comparison() const;  // as command-line options
-    void follow(bool on);    // on: flythrough or path; off: the player controls the camera from its current place
+    std::string comparison() const;      // as command-line options
+    void follow(bool on);                // on: flythrough or path; off: the player controls the camera from its current place
     std::shared_ptr<Measures> measures;  // null: measuring is off
     // Why there is no reference for a reading, or the command that traces it.
     std::string referenceHint(const Measures::Reading& reading) const;
-    void startReplay();      // of the path of options.camera, or of the last recorded one
-    void stopRecording();    // writes the file if a key was recorded; shows its name or the error
+    void startReplay();    // of the path of options.camera, or of the last recorded one
+    void stopRecording();  // writes the file if a key was recorded; shows its name or the error
     bool replaying() const { return m_replayed.has_value(); }
     Recorder recorder;
     // Of a replay: its path, and the time of its first frame, s.
     std::filesystem::path replayFile;
     float replayStart = 0.0f;
-    void scrub(float to);    // jumps to a time
+    void scrub(float to);  // jumps to a time
 
     // Milliseconds of loop iterations: of those right after a method switch, and of all others.
     app::Series switches{"switch", {}}, steady{"steady", {}};

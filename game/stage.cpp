@@ -67,8 +67,10 @@ Stage::Stage(const std::string& scene, bool bare) {
         std::vector<std::string> names;
         for (const SceneInfo& s : manifest) names.push_back(s.name);
         const bool looksLikePath = scene.find('/') != std::string::npos || scene.find(".gl") != std::string::npos;
-        throw Complaint(looksLikePath ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", scene, fmt::join(names, ", "))
-                                      : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", scene, app::choices(scene, names)));
+        throw Complaint(looksLikePath
+                            ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", scene,
+                                  fmt::join(names, ", "))
+                            : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", scene, app::choices(scene, names)));
     }
     loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
@@ -124,7 +126,9 @@ void Stage::loadToys(bool wanted) {
     if (found && found->string() == file) m_toys = first.model;
     else if (found) m_toys = scene::loadGltf(*found);
     if (!m_toys) {
-        if (wanted) remarks.push_back(fmt::format("{} is missing, so the scene has no toasters; build the target content, which makes it", kToysFile));
+        if (wanted)
+            remarks.push_back(
+                fmt::format("{} is missing, so the scene has no toasters; build the target content, which makes it", kToysFile));
         return;
     }
     for (const int node : m_toys->order)
@@ -158,7 +162,9 @@ glm::vec3 Stage::freePlace(const glm::vec3& at) const {
         place.x = std::clamp(place.x, info.walkMin.x, info.walkMax.x);
         place.z = std::clamp(place.z, info.walkMin.y, info.walkMax.y);
         place.y = info.floor;
-        if (std::none_of(m_dropped.begin(), m_dropped.end(), [&](const Dropped& d) { return glm::distance(d.at, place) < 0.5f * info.toyScale; })) break;
+        if (std::none_of(
+                m_dropped.begin(), m_dropped.end(), [&](const Dropped& d) { return glm::distance(d.at, place) < 0.5f * info.toyScale; }))
+            break;
     }
     return place;
 }
@@ -248,7 +254,7 @@ scene::Camera Stage::camera(const CameraChoice& choice, float time) {
         const int count = scene::lensCount(*instance.model);
         if (choice.lens >= count)
             throw Complaint(fmt::format("--camera scene:{}: {} has {}", choice.lens, file,
-                                        count == 0 ? "no cameras; use --eye and --target" : fmt::format("cameras 0 to {}", count - 1)));
+                count == 0 ? "no cameras; use --eye and --target" : fmt::format("cameras 0 to {}", count - 1)));
         camera = scene::lensCamera(instance, scene::evaluate(*instance.model, instance.animation, time + instance.timeOffset), choice.lens);
     }
     if (choice.fovDegrees) camera.fovY = glm::radians(*choice.fovDegrees);

@@ -22,11 +22,11 @@ public:
 
     scene::World world;
     SceneInfo info;
-    scene::CameraPath path;               // the flythrough; an orbit if the scene has none
-    scene::Bounds bounds;                 // of the whole world at time 0
-    std::vector<std::string> remarks;     // one line each, for the terminal
-    std::string file;                     // path of the loaded glTF file
-    double loadSeconds = 0.0;             // loading time
+    scene::CameraPath path;            // the flythrough; an orbit if the scene has none
+    scene::Bounds bounds;              // of the whole world at time 0
+    std::vector<std::string> remarks;  // one line each, for the terminal
+    std::string file;                  // path of the loaded glTF file
+    double loadSeconds = 0.0;          // loading time
 
     scene::Camera startCamera() const;
     // The path of --camera path: or --path, read once. Throws app::Complaint.

@@ -68,7 +68,7 @@ void switchTest(const Options& options, Engine& engine, Stage& stage) {
         excess.push_back(worst - median);
     }
     fmt::print("worst frame at a switch {:.3f} ms, median frame {:.3f} ms; at most {:.3f} ms over the method's own median\n",
-               app::percentile(allSwitches, 1.0), app::percentile(allSteady, 0.5), app::percentile(excess, 1.0));
+        app::percentile(allSwitches, 1.0), app::percentile(allSteady, 0.5), app::percentile(excess, 1.0));
 }
 
 }  // namespace obscura::game

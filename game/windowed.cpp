@@ -40,10 +40,10 @@ private:
     Session m_session;
     std::unique_ptr<app::Overlay> m_overlay;
     std::vector<std::string> m_shaderErrors;  // as last printed
-    uint64_t m_firstFrame = 0;  // timings of earlier frames (warm-up) are not plotted
+    uint64_t m_firstFrame = 0;                // timings of earlier frames (warm-up) are not plotted
     uint64_t m_shown = 0;
     bool m_overlayTried = false;
-    bool m_idle = false;      // the last iteration drew nothing
+    bool m_idle = false;  // the last iteration drew nothing
     double m_lastFrame = 0.0;
 };
 
@@ -55,18 +55,20 @@ void Game::makeOverlay(VkFormat format) {
 }
 
 void Game::takeScreenshot(graph::Graph& graph, graph::ImageId picture, fs::path file, bool last) {
-    m_engine.expect(m_engine.capture().add(graph, picture, [this, file = std::move(file), last](app::Picture&& done) {
-        try {
-            app::writePng(file, done);
-            m_session.say("wrote " + file.string());
-            fmt::print("wrote {}\n", file.string());
-            std::fflush(stdout);
-        } catch (const app::Complaint& complaint) {
-            if (last) throw;  // requested on the command line: reported by the exit code
-            m_session.say(complaint.what());
-            fmt::print(stderr, "obscura: {}\n", complaint.what());
-        }
-    }), "taking a screenshot");
+    m_engine.expect(m_engine.capture().add(graph, picture,
+                        [this, file = std::move(file), last](app::Picture&& done) {
+                            try {
+                                app::writePng(file, done);
+                                m_session.say("wrote " + file.string());
+                                fmt::print("wrote {}\n", file.string());
+                                std::fflush(stdout);
+                            } catch (const app::Complaint& complaint) {
+                                if (last) throw;  // requested on the command line: reported by the exit code
+                                m_session.say(complaint.what());
+                                fmt::print(stderr, "obscura: {}\n", complaint.what());
+                            }
+                        }),
+        "taking a screenshot");
 }
 
 void Game::drawFrame() {
@@ -81,8 +83,9 @@ void Game::drawFrame() {
     const render::FrameOptions frame = m_session.frame(m_presenter.size());
     const render::Outputs outputs = m_engine.renderer().add(graph, m_session.stage.world, frame);
     if (m_session.measures)
-        m_engine.expect(readInto(m_session.measures, m_engine.capture(), graph, outputs, measuredFrame(frame, m_session.stage.world, m_shown)),
-                        "reading samples back");
+        m_engine.expect(
+            readInto(m_session.measures, m_engine.capture(), graph, outputs, measuredFrame(frame, m_session.stage.world, m_shown)),
+            "reading samples back");
     m_session.passNames.clear();
     for (const graph::Graph::Written& written : graph.written())
         if (std::find(m_session.passNames.begin(), m_session.passNames.end(), written.pass) == m_session.passNames.end())
@@ -155,7 +158,7 @@ void Game::run() {
     m_engine.capture().collect(true);
     if (!m_session.switches.values.empty())
         fmt::print("worst frame at a switch {:.2f} ms ({} switches), median frame {:.2f} ms\n", m_session.switches.worst(),
-                   m_session.switches.values.size(), m_session.steady.median());
+            m_session.switches.values.size(), m_session.steady.median());
 }
 
 }  // namespace
@@ -179,8 +182,8 @@ int playWindowed(const Options& options) {
     }
     engine->prepare(options, stage, true);
     fmt::print("{}: {} on {}, {} methods; started in {:.2f} s (pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}). F1 shows the keys.\n",
-               "Obscura", stage.info.title, engine->device().caps().deviceName, Choice::count(), engine->started.total(),
-               engine->started.pipelines, engine->started.warmUp, engine->started.cacheFound ? "found" : "not found");
+        "Obscura", stage.info.title, engine->device().caps().deviceName, Choice::count(), engine->started.total(),
+        engine->started.pipelines, engine->started.warmUp, engine->started.cacheFound ? "found" : "not found");
     std::fflush(stdout);
     if (options.switchTest) {
         switchTest(options, *engine, stage);

@@ -38,8 +38,8 @@ template <class... Arguments> std::string shellCommand(std::string_view format, 
 }
 
 struct Ended {
-    int code = -1;            // exit code; -1: ended by a signal
-    std::string out, error;   // stdout and stderr
+    int code = -1;           // exit code; -1: ended by a signal
+    std::string out, error;  // stdout and stderr
     size_t errorLines() const {
         size_t count = 0;
         for (const char c : error) count += c == '\n';

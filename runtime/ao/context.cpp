@@ -42,7 +42,8 @@ graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame
     if (given.thickness) sources.layers.thickness = importView(graph, "thickness", frame.layers.thickness, frame.size);
     if (given.second) sources.layers.second = importView(graph, "second layer", frame.layers.second, frame.layers.secondSize);
     if (const Volume& v = frame.volume; v.buffer)
-        sources.volume = graph.import("volume bits", {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});
+        sources.volume = graph.import("volume bits",
+            {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});
     return context.library->add(graph, frame, sources, context.falloff, *context.values).visibility;
 }
 
@@ -71,11 +72,13 @@ void deliver(Context& context, graph::Graph& graph, graph::ImageId visibility, c
         graph.pass("output", context.toR8).read(visibility).write(result).dispatch(size.width, size.height);
         return;
     }
-    graph.pass("output").use(visibility, graph::Access::transferRead).use(result, graph::Access::transferWrite, true)
+    graph.pass("output")
+        .use(visibility, graph::Access::transferRead)
+        .use(result, graph::Access::transferWrite, true)
         .record([visibility, result, size](const graph::PassContext& c) {
             const VkImageCopy region{{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, size};
             c.device.vk().CmdCopyImage(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(result),
-                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
         });
 }
 
@@ -93,7 +96,8 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcep
         graph::Graph& graph = *context->graph;
         graph.begin();
         const gpu::Image* target = nullptr;
-        if (const gpu::Status made = nextOutput(*context, {view.visible.x, view.visible.y}, target); made != gpu::Status::ok) return statusOf(made);
+        if (const gpu::Status made = nextOutput(*context, {view.visible.x, view.visible.y}, target); made != gpu::Status::ok)
+            return statusOf(made);
         const graph::ImageId visibility = declare(*context, graph, frame, false);
         if (!visibility) return statusOf(context->device->failure());
         deliver(*context, graph, visibility, target->desc(), target);
@@ -134,7 +138,8 @@ List<PassTime> timings(Context* context) noexcept {
         own.timedNames.clear();
         own.timed.clear();
         for (const graph::PassTime& pass : own.executor->timings().passes) own.timedNames.push_back(pass.name);
-        for (size_t i = 0; i < own.timedNames.size(); ++i) own.timed.push_back({own.timedNames[i].c_str(), own.executor->timings().passes[i].milliseconds});
+        for (size_t i = 0; i < own.timedNames.size(); ++i)
+            own.timed.push_back({own.timedNames[i].c_str(), own.executor->timings().passes[i].milliseconds});
         return Status::ok;
     });
     return {own.timed.data(), own.timed.size()};

@@ -15,7 +15,8 @@ gpu::MemorySource memoryOf(const MemoryCallbacks& memory) {
         block = {given.memory, given.offset, needs.size, static_cast<std::byte*>(given.mapped), given.token};
         return result;
     };
-    source.free = [memory](const gpu::MemoryBlock& block) { memory.free(memory.user, {block.memory, block.offset, block.mapped, block.token}); };
+    source.free = [memory](
+                      const gpu::MemoryBlock& block) { memory.free(memory.user, {block.memory, block.offset, block.mapped, block.token}); };
     return source;
 }
 
@@ -38,9 +39,12 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     adopted.allocator = desc.allocator;
     adopted.memory = memoryOf(desc.memory);
     if (desc.log)
-        adopted.log = [log = desc.log, user = desc.logUser](gpu::Severity severity, const char* line) { log(user, Severity(severity), line); };
+        adopted.log = [log = desc.log, user = desc.logUser](
+                          gpu::Severity severity, const char* line) { log(user, Severity(severity), line); };
     std::string error;
-    struct Destroy { void operator()(Context* made) const { destroy(made); } };
+    struct Destroy {
+        void operator()(Context* made) const { destroy(made); }
+    };
     std::unique_ptr<Context, Destroy> made(new Context);
     made->log = log;
     made->format = desc.format;
@@ -54,7 +58,8 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     made->library = std::make_unique<Library>(*made->device, made->shaders);
     if (!made->library->valid()) return statusOf(made->device->failure());
     if (desc.format == VisibilityFormat::r8)
-        if (const gpu::Status status = gpu::Program::compute(*made->device, made->shaders, "ao/common/output_r8.comp", {}, made->toR8); status != gpu::Status::ok)
+        if (const gpu::Status status = gpu::Program::compute(*made->device, made->shaders, "ao/common/output_r8.comp", {}, made->toR8);
+            status != gpu::Status::ok)
             return statusOf(status);
     const Status status = setMethod(made.get(), "hbao", {});
     if (status == Status::ok) *context = made.release();

@@ -31,20 +31,24 @@ Status choose(Context& context, const char* id, const MethodSettings& settings) 
     const auto idOf = [](const auto& item) { return item.id; };
     const MethodInfo* info = findMethod(id);
     if (!info)
-        return invalid(fmt::format("there is no method '{}'; there are {}", orNull(id), listed(methods(), [](const MethodInfo* method) { return method->id; })));
+        return invalid(fmt::format(
+            "there is no method '{}'; there are {}", orNull(id), listed(methods(), [](const MethodInfo* method) { return method->id; })));
     const Preset* preset = find(info->presets, settings.preset);
-    if (!preset) return invalid(fmt::format("{} has no preset '{}'; it has {}", info->id, orNull(settings.preset), listed(info->presets, idOf)));
+    if (!preset)
+        return invalid(fmt::format("{} has no preset '{}'; it has {}", info->id, orNull(settings.preset), listed(info->presets, idOf)));
     Values values(*info);
     values.apply(*preset);
     if (settings.resolve) {
         const Preset* resolve = findResolvePreset(settings.resolve);
-        if (!resolve) return invalid(fmt::format("there is no resolve preset '{}'; there are {}", settings.resolve, listed(resolvePresets(), idOf)));
+        if (!resolve)
+            return invalid(fmt::format("there is no resolve preset '{}'; there are {}", settings.resolve, listed(resolvePresets(), idOf)));
         values.resolve(*resolve);
     }
     if (settings.settings.count && !settings.settings.items) return invalid("MethodSettings::settings has a count but no items");
     for (const Setting& setting : settings.settings)
         if (!setting.id || !values.set(setting.id, setting.value))
-            return invalid(fmt::format("{} has no parameter '{}'; it has {}", info->id, orNull(setting.id), listed(info->parameters, idOf)));
+            return invalid(
+                fmt::format("{} has no parameter '{}'; it has {}", info->id, orNull(setting.id), listed(info->parameters, idOf)));
     const Falloff& falloff = settings.falloff;
     if (!(falloff.length > 0.0f) || !std::isfinite(reach(falloff)))
         return invalid(fmt::format("MethodSettings::falloff.length is {}; it must be finite and above 0", falloff.length));

@@ -10,7 +10,12 @@ Status Denoise::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, D
 
 graph::ImageId Denoise::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const char* passName) {
     const graph::ImageId result = graph.image(passName, graph.desc(visibility));
-    graph.pass(passName, inputs.view.temporal ? m_strict : m_blur).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(visibility).write(result)
+    graph.pass(passName, inputs.view.temporal ? m_strict : m_blur)
+        .read(inputs.viewBlock)
+        .read(inputs.depth)
+        .read(inputs.normals)
+        .read(visibility)
+        .write(result)
         .dispatch(inputs.view.visible.x, inputs.view.visible.y);
     return result;
 }

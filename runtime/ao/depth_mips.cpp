@@ -3,8 +3,9 @@
 namespace obscura::ao {
 
 Status DepthMips::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Filter filter, DepthMips& out) {
-    return gpu::Program::compute(device, shaders, "ao/common/depth_mips.comp", {{0, uint32_t(filter)}}, out.m_reduce) == gpu::Status::ok ? Status::ok
-                                                                                                                                  : Status::shaderError;
+    return gpu::Program::compute(device, shaders, "ao/common/depth_mips.comp", {{0, uint32_t(filter)}}, out.m_reduce) == gpu::Status::ok
+               ? Status::ok
+               : Status::shaderError;
 }
 
 gpu::ImageDesc DepthMips::desc(VkFormat format, shared::uvec2 size) {
@@ -16,7 +17,11 @@ graph::ImageId DepthMips::add(graph::Graph& graph, const Inputs& inputs, const c
     const shared::uvec2 size = inputs.view.size;
     const graph::ImageId mips = graph.image(passName, desc(VK_FORMAT_R32_SFLOAT, size));
     const float constants[] = {range, fade};
-    graph.pass(passName, m_reduce).read(inputs.depth).write(mips).constants(constants).dispatch((size.x + 15) / 16 * 8, (size.y + 15) / 16 * 8);
+    graph.pass(passName, m_reduce)
+        .read(inputs.depth)
+        .write(mips)
+        .constants(constants)
+        .dispatch((size.x + 15) / 16 * 8, (size.y + 15) / 16 * 8);
     return mips;
 }
 

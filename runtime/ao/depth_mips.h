@@ -9,7 +9,7 @@ namespace obscura::ao {
 class DepthMips {
 public:
     enum class Filter : uint32_t { oneOfFour, farthest };  // farthest: mean of the texels near the farthest [XeGTAO]
-    static constexpr float kFade = 0.615f;  // XeGTAO's
+    static constexpr float kFade = 0.615f;                 // XeGTAO's
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Filter filter, DepthMips& out);
     // Description of the image that holds all levels for buffers of this size.
     static gpu::ImageDesc desc(VkFormat format, shared::uvec2 size);

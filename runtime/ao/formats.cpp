@@ -10,7 +10,8 @@ struct Known {
 };
 
 constexpr uint32_t bit(Role role) { return 1u << uint32_t(role); }
-constexpr uint32_t kDeviceDepth = bit(Role::deviceDepth), kSigned = bit(Role::signedNormals), kUnsigned = bit(Role::unsignedNormals), kMotion = bit(Role::motion);
+constexpr uint32_t kDeviceDepth = bit(Role::deviceDepth), kSigned = bit(Role::signedNormals), kUnsigned = bit(Role::unsignedNormals),
+                   kMotion = bit(Role::motion);
 constexpr uint32_t kNormals = kSigned | kUnsigned, kTwo = kMotion | bit(Role::second);
 
 constexpr Known kKnown[] = {

@@ -40,18 +40,21 @@ Status checkImage(const Context& context, const GivenImage& image, bool forecast
     }
     if (forecast && v.format == VK_FORMAT_UNDEFINED) return Status::ok;
     if (!fits(image.role, v.format))
-        return refuse(context, Status::invalid, fmt::format("{}.format is {}; it must be {}", field, gpu::formatName(v.format), formatsOf(image.role)));
+        return refuse(context, Status::invalid,
+            fmt::format("{}.format is {}; it must be {}", field, gpu::formatName(v.format), formatsOf(image.role)));
     const gpu::Device& device = *context.device;
     if (!device.formatSupports(v.format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
-        return refuse(context, Status::unsupported, fmt::format("{}.format is {}, which this device cannot sample", field, gpu::formatName(v.format)));
+        return refuse(context, Status::unsupported,
+            fmt::format("{}.format is {}, which this device cannot sample", field, gpu::formatName(v.format)));
     if (forecast) return Status::ok;
     // Vulkan does not tell an image's size, but its memory cannot be smaller than its texels: that catches one from before a resize.
     VkMemoryRequirements needs;
     device.vk().GetImageMemoryRequirements(device.handle(), v.image, &needs);
     const uint64_t least = uint64_t(image.size.width) * image.size.height * leastBytes(v.format);
     if (needs.size < least)
-        return refuse(context, Status::invalid, fmt::format("{}.image has {} bytes; {} x {} texels of {} take {} or more", field, needs.size,
-                                                            image.size.width, image.size.height, gpu::formatName(v.format), least));
+        return refuse(context, Status::invalid,
+            fmt::format("{}.image has {} bytes; {} x {} texels of {} take {} or more", field, needs.size, image.size.width,
+                image.size.height, gpu::formatName(v.format), least));
     return Status::ok;
 }
 
@@ -72,20 +75,23 @@ Status checkFrame(const Context& context, const Frame& frame, bool forecast, sha
     if (std::isnan(frame.skyDepth)) return invalid("Frame::skyDepth is not a number");
     const uint32_t most = context.device->caps().maxImageSize;
     if (std::max(frame.size.width, frame.size.height) > most)
-        return refuse(context, Status::unsupported, fmt::format("Frame::size is {} x {}; this device allows {} a side", frame.size.width, frame.size.height, most));
+        return refuse(context, Status::unsupported,
+            fmt::format("Frame::size is {} x {}; this device allows {} a side", frame.size.width, frame.size.height, most));
     const GivenImages given = imagesOf(frame, forecast);
-    if (given.second && !given.thickness) return invalid("Frame::layers.second is given without Frame::layers.thickness; give both, or thickness alone");
+    if (given.second && !given.thickness)
+        return invalid("Frame::layers.second is given without Frame::layers.thickness; give both, or thickness alone");
     const auto isReduced = [&](uint32_t side) {
-        return layers.secondSize.width == (frame.size.width + side - 1) / side && layers.secondSize.height == (frame.size.height + side - 1) / side;
+        return layers.secondSize.width == (frame.size.width + side - 1) / side &&
+               layers.secondSize.height == (frame.size.height + side - 1) / side;
     };
     if (given.second && !isReduced(1) && !isReduced(2))
-        return invalid(fmt::format("Frame::layers.secondSize is {} x {}; it must be Frame::size, {} x {}, or half of it rounded up", layers.secondSize.width,
-                                   layers.secondSize.height, frame.size.width, frame.size.height));
+        return invalid(fmt::format("Frame::layers.secondSize is {} x {}; it must be Frame::size, {} x {}, or half of it rounded up",
+            layers.secondSize.width, layers.secondSize.height, frame.size.width, frame.size.height));
     const GivenImage images[] = {{"depth", true, frame.depth, depthRole(frame), frame.size},
-                                 {"normals", given.normals, frame.normals, normalsRole(frame), frame.size},
-                                 {"motion", given.motion, frame.motion, Role::motion, frame.size},
-                                 {"layers.thickness", given.thickness, layers.thickness, Role::thickness, frame.size},
-                                 {"layers.second", given.second, layers.second, Role::second, layers.secondSize}};
+        {"normals", given.normals, frame.normals, normalsRole(frame), frame.size},
+        {"motion", given.motion, frame.motion, Role::motion, frame.size},
+        {"layers.thickness", given.thickness, layers.thickness, Role::thickness, frame.size},
+        {"layers.second", given.second, layers.second, Role::second, layers.secondSize}};
     for (const GivenImage& image : images) {
         if (!image.given) continue;
         if (const Status status = checkImage(context, image, forecast); status != Status::ok) return status;

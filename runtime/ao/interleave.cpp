@@ -19,15 +19,32 @@ Status Gather::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Ga
 graph::ImageId Gather::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, uint32_t side, graph::ImageId open) {
     const shared::uvec2 size = inputs.view.visible;
     const graph::ImageId result = graph.image("resolve.gather", {VK_FORMAT_R16_SFLOAT, size.x, size.y});
-    graph.pass("resolve.gather", open ? m_weighted : m_equal).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(parts)
-        .read(open ? open : parts).write(result).constants(side).dispatch(size.x, size.y);
+    graph.pass("resolve.gather", open ? m_weighted : m_equal)
+        .read(inputs.viewBlock)
+        .read(inputs.depth)
+        .read(inputs.normals)
+        .read(parts)
+        .read(open ? open : parts)
+        .write(result)
+        .constants(side)
+        .dispatch(size.x, size.y);
     return result;
 }
 
-graph::ImageId Gather::addMap(graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, graph::ImageId receivers, uint32_t scale, uint32_t side) {
-    const struct { uint32_t side; float scale; } constants{side, float(scale)};
+graph::ImageId Gather::addMap(
+    graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, graph::ImageId receivers, uint32_t scale, uint32_t side) {
+    const struct {
+        uint32_t side;
+        float scale;
+    } constants{side, float(scale)};
     const graph::ImageId result = graph.image("resolve.gather", graph.desc(parts));
-    graph.pass("resolve.gather", m_map).read(inputs.viewBlock).read(receivers).read(parts).read(parts).write(result).constants(constants)
+    graph.pass("resolve.gather", m_map)
+        .read(inputs.viewBlock)
+        .read(receivers)
+        .read(parts)
+        .read(parts)
+        .write(result)
+        .constants(constants)
         .dispatch(graph.desc(parts).width, graph.desc(parts).height);
     return result;
 }

@@ -23,8 +23,15 @@ graph::ImageId LayerPass::add(graph::Graph& graph, const Inputs& inputs, float s
     const gpu::ImageDesc desc = DepthMips::desc(one ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT, inputs.view.size);
     const LayerPackInputs packing = layerPackInputs(graph, inputs, sheet, one);
     const graph::ImageId result = graph.image("spans", desc);
-    graph.pass("spans", one ? m_packFirst : m_packTwo[packing.layerCount - 1]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(packing.thickness)
-        .read(packing.second).write(result).constants(packing.constants).dispatch(desc.width, desc.height);
+    graph.pass("spans", one ? m_packFirst : m_packTwo[packing.layerCount - 1])
+        .read(inputs.viewBlock)
+        .read(inputs.depth)
+        .read(inputs.normals)
+        .read(packing.thickness)
+        .read(packing.second)
+        .write(result)
+        .constants(packing.constants)
+        .dispatch(desc.width, desc.height);
     return result;
 }
 

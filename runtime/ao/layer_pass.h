@@ -20,9 +20,12 @@ private:
 
 // Images and first constants that spans_at.glsl reads. Needs inputs.layers.thickness.
 struct LayerPackInputs {
-    struct Constants { float sheet; uint32_t shift; } constants;  // GLSL: Packing. Metres; 1 if the second layer is of half size, else 0
+    struct Constants {
+        float sheet;
+        uint32_t shift;
+    } constants;                       // GLSL: Packing. Metres; 1 if the second layer is of half size, else 0
     graph::ImageId thickness, second;  // without a second layer, `second` is `thickness`
-    uint32_t layerCount;  // 1 or 2
+    uint32_t layerCount;               // 1 or 2
 };
 LayerPackInputs layerPackInputs(graph::Graph& graph, const Inputs& inputs, float sheet, bool onlyFirst = false);
 

@@ -22,7 +22,8 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 
 }  // namespace
 
-Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
+Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders)
+    : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
     m_valid = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
 }
 
@@ -77,7 +78,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     const bool tracesItself = entry.needs && (entry.needs(values) & kVolume);
     if (visibility && m_offScreen && values.has("offscreen") && !tracesItself)
         visibility = m_offScreen->add(graph, inputs, visibility, method.blocking(inputs, values),
-                                     {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
+            {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
     if (!visibility || !values.info().needs) return {visibility, inputs};
     TemporalSettings temporal;
     temporal.history = values["temporal"];

@@ -35,7 +35,7 @@ private:
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
     Prepare m_prepare;
-    std::unique_ptr<OffScreenPass> m_offScreen;          // null until values have asked for it
+    std::unique_ptr<OffScreenPass> m_offScreen;  // null until values have asked for it
     Temporal m_temporal;
     std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
     const MethodInfo* m_last = nullptr;              // the last recorded frame's; null: there is no history

@@ -18,8 +18,8 @@ namespace obscura::ao {
 
 // Occupied cells of the world, laid out as in shared/volume.h. Passes that trace them have a program for each structure.
 struct VolumeInput {
-    graph::BufferId bits;        // storage buffer
-    graph::BufferId block;       // Volume as a uniform buffer
+    graph::BufferId bits;   // storage buffer
+    graph::BufferId block;  // Volume as a uniform buffer
     VolumeStructure structure = VolumeStructure::dense;
     explicit operator bool() const { return bool(bits); }
 };
@@ -32,14 +32,14 @@ struct LayerInputs {
 // Inputs of every method, made by Prepare.
 struct Inputs {
     shared::View view;
-    graph::BufferId viewBlock;   // View as a uniform buffer
-    graph::ImageId depth;        // R32F, view.size: linear depth, sky at view.skyDepth
-    graph::ImageId normals;      // R32UI, view.size: geometric eye-space normals, packNormal()
-    graph::ImageId motion;       // two floats, view.size, optional: times motionScale, px from this frame's position to last frame's
+    graph::BufferId viewBlock;  // View as a uniform buffer
+    graph::ImageId depth;       // R32F, view.size: linear depth, sky at view.skyDepth
+    graph::ImageId normals;     // R32UI, view.size: geometric eye-space normals, packNormal()
+    graph::ImageId motion;      // two floats, view.size, optional: times motionScale, px from this frame's position to last frame's
     float motionScale[2];
-    float previousFromEye[12];   // three rows: this frame's eye space -> last frame's, for points at rest in the world
+    float previousFromEye[12];  // three rows: this frame's eye space -> last frame's, for points at rest in the world
     LayerInputs layers;         // optional; only those that the values use
-    VolumeInput volume;          // optional
+    VolumeInput volume;         // optional
     shared::FalloffBlock falloff;
     Falloff falloffDesc;
 };

@@ -24,20 +24,25 @@ constexpr float kFarthest = 1e18f;  // its square fits in a float
 }  // namespace
 
 Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out) {
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace[0]) != gpu::Status::ok) return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_trace[1]) != gpu::Status::ok) return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_layers.comp", {}, out.m_layered[0]) != gpu::Status::ok) return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb_layers.comp", {}, out.m_layered[1]) != gpu::Status::ok) return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace[0]) != gpu::Status::ok)
+        return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_trace[1]) != gpu::Status::ok)
+        return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_layers.comp", {}, out.m_layered[0]) != gpu::Status::ok)
+        return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb_layers.comp", {}, out.m_layered[1]) != gpu::Status::ok)
+        return Status::shaderError;
     if (LayerPass::create(device, shaders, out.m_layerPass) != Status::ok) return Status::shaderError;
     return Upsample::create(device, shaders, out.m_upsample);
 }
 
-graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const Blocking& blocking,
-                                  const OffScreenSettings& settings) {
+graph::ImageId OffScreenPass::add(
+    graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const Blocking& blocking, const OffScreenSettings& settings) {
     if (settings.what == OffScreen::off) return visibility;
     if (!inputs.volume) {
         if (!std::exchange(m_warned, true))
-            graph.device().log(gpu::Severity::warning, "offscreen: the frame has no volume (Frame::volume); only occluders in the image count");
+            graph.device().log(
+                gpu::Severity::warning, "offscreen: the frame has no volume (Frame::volume); only occluders in the image count");
         return visibility;
     }
     const auto& visible = inputs.view.visible;
@@ -45,10 +50,16 @@ graph::ImageId OffScreenPass::add(graph::Graph& graph, const Inputs& inputs, gra
     const graph::ImageId map = graph.image("offscreen.map", {VK_FORMAT_R16_SFLOAT, width, height});
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
     const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
-                      std::min(blocking.reach, kFarthest), blocking.thickness};
+        std::min(blocking.reach, kFarthest), blocking.thickness};
     const graph::ImageId layers = blocking.sheet >= 0.0f ? m_layerPass.add(graph, inputs, blocking.sheet) : graph::ImageId{};
     graph::Pass& pass = graph.pass("offscreen.trace", (layers ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
-    pass.read(inputs.viewBlock).read(inputs.volume.block).read(inputs.volume.bits).read(inputs.depth).read(inputs.normals).write(map).write(receivers);
+    pass.read(inputs.viewBlock)
+        .read(inputs.volume.block)
+        .read(inputs.volume.bits)
+        .read(inputs.depth)
+        .read(inputs.normals)
+        .write(map)
+        .write(receivers);
     if (layers) pass.read(layers);
     pass.constants(trace).dispatch(width, height);
     return m_upsample.add(graph, inputs, {map, receivers}, {kScale, kWindow, kRange * inputs.falloff.reach}, "offscreen", visibility);

@@ -25,7 +25,8 @@ public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out);
     // visibility: the method's, R16F, visible size. Returns a new image of the same kind with B subtracted. Without a volume: returns
     // `visibility` and logs one warning.
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const Blocking& blocking, const OffScreenSettings& settings);
+    graph::ImageId add(
+        graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const Blocking& blocking, const OffScreenSettings& settings);
 
 private:
     gpu::Program m_trace[2], m_layered[2];  // by VolumeStructure

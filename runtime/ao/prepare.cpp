@@ -21,10 +21,11 @@ NormalConstants normalConstants(const Frame& frame) {
 }  // namespace
 
 Status Prepare::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Prepare& out) {
-    const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/common/linearize.comp", &out.m_linearize},
-                                                                            {"ao/common/normals.comp", &out.m_packNormals},
-                                                                            {"ao/common/normals_packed.comp", &out.m_repackNormals},
-                                                                            {"ao/common/normals_reconstruct.comp", &out.m_reconstruct}};
+    const struct {
+        const char* name;
+        gpu::Program* program;
+    } programs[] = {{"ao/common/linearize.comp", &out.m_linearize}, {"ao/common/normals.comp", &out.m_packNormals},
+        {"ao/common/normals_packed.comp", &out.m_repackNormals}, {"ao/common/normals_reconstruct.comp", &out.m_reconstruct}};
     for (const auto& [name, program] : programs)
         if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return Status::shaderError;
     return Status::ok;
@@ -46,7 +47,11 @@ Inputs Prepare::add(graph::Graph& graph, const Frame& frame, const shared::View&
     }
     inputs.depth = graph.image("linear depth", {VK_FORMAT_R32_SFLOAT, view.size.x, view.size.y});
     const uint32_t linear = frame.depthKind == DepthKind::linear ? 1 : 0;
-    graph.pass("prepare.depth", m_linearize).read(inputs.viewBlock).read(sources.depth).write(inputs.depth).constants(linear)
+    graph.pass("prepare.depth", m_linearize)
+        .read(inputs.viewBlock)
+        .read(sources.depth)
+        .write(inputs.depth)
+        .constants(linear)
         .dispatch(view.size.x, view.size.y);
 
     if (sources.packed) {
@@ -55,10 +60,17 @@ Inputs Prepare::add(graph::Graph& graph, const Frame& frame, const shared::View&
     }
     inputs.normals = graph.image("packed normals", {VK_FORMAT_R32_UINT, view.size.x, view.size.y});
     if (!sources.normals) {
-        graph.pass("prepare.normals", m_reconstruct).read(inputs.viewBlock).read(inputs.depth).write(inputs.normals).dispatch(view.size.x, view.size.y);
+        graph.pass("prepare.normals", m_reconstruct)
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .write(inputs.normals)
+            .dispatch(view.size.x, view.size.y);
     } else {
         gpu::Program& program = frame.normalEncoding == NormalEncoding::octahedral32 ? m_repackNormals : m_packNormals;
-        graph.pass("prepare.normals", program).read(sources.normals).write(inputs.normals).constants(normalConstants(frame))
+        graph.pass("prepare.normals", program)
+            .read(sources.normals)
+            .write(inputs.normals)
+            .constants(normalConstants(frame))
             .dispatch(view.size.x, view.size.y);
     }
     return inputs;

@@ -12,7 +12,7 @@ struct Sources {
     graph::ImageId normals;  // none: reconstructed from depth
     graph::ImageId motion;   // none: no motion; scaled as the Frame says
     bool direct = false;     // depth and normals have the form of Inputs already and may be storage images: taken as they are
-    LayerInputs layers;     // none: no depth layers
+    LayerInputs layers;      // none: no depth layers
     graph::BufferId volume;  // none: no volume; bits as Frame::volume describes them
     bool packed = false;     // normals have the form of Inputs already
 };

@@ -26,8 +26,12 @@ namespace {
 
 // Parameters of every method: of the temporal pass that the library adds after it.
 const Parameter kShared[] = {
-    {"temporal", "", 0, 0.98f, 0, false, {}, "Largest weight of the reprojected history; samples then rotate from frame to frame. 0: off. Higher is calmer and reacts more slowly; needs motion vectors."},
-    {"temporal_clip", "sd", 0, 8, TemporalSettings{}.clip, false, {}, "Clamps history to this many standard deviations of its neighbourhood; 0 turns clamping off. Lower flickers more, higher lets moved occluders leave trails."},
+    {"temporal", "", 0, 0.98f, 0, false, {},
+        "Largest weight of the reprojected history; samples then rotate from frame to frame. 0: off. Higher is calmer and reacts more "
+        "slowly; needs motion vectors."},
+    {"temporal_clip", "sd", 0, 8, TemporalSettings{}.clip, false, {},
+        "Clamps history to this many standard deviations of its neighbourhood; 0 turns clamping off. Lower flickers more, higher lets "
+        "moved occluders leave trails."},
 };
 
 const Setting kRaw[] = {{"denoise", 0}, {"blur", 0}, {"filter", 0}, {"temporal", 0}};
@@ -42,9 +46,13 @@ const Preset kResolves[] = {
 // Parameters of every method that reads the screen alone: of the off-screen pass, which runs before the temporal one.
 const char* const kOffScreen[] = {"off", "offscreen", "hidden"};
 const Parameter kOffScreenParameters[] = {
-    {"offscreen", "", 0, 2, 0, true, {kOffScreen, 3}, "Adds occluders from voxels that are outside the picture, or outside it and hidden behind visible surfaces. Needs voxels; costs rays."},
-    {"offscreen_rays", "", 4, 64, 16, true, {}, "Rays through the voxels, at a quarter of the pixels. Cost grows with rays x reach / stride; too few are noisy."},
-    {"offscreen_stride", "cells", 0.5f, 8, 1.25f, false, {}, "Step of these rays. Longer steps cost less and miss walls, which are one cell thick along the grid."},
+    {"offscreen", "", 0, 2, 0, true, {kOffScreen, 3},
+        "Adds occluders from voxels that are outside the picture, or outside it and hidden behind visible surfaces. Needs voxels; costs "
+        "rays."},
+    {"offscreen_rays", "", 4, 64, 16, true, {},
+        "Rays through the voxels, at a quarter of the pixels. Cost grows with rays x reach / stride; too few are noisy."},
+    {"offscreen_stride", "cells", 0.5f, 8, 1.25f, false, {},
+        "Step of these rays. Longer steps cost less and miss walls, which are one cell thick along the grid."},
 };
 
 bool isScreenSpace(const MethodInfo& info) { return info.needs && !(info.needs & kVolume); }
@@ -66,8 +74,8 @@ struct Composed {
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
         std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(),
-                                         farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(), gtaoEntry(),
-                                         visibilityBitmaskEntry(), ssaoEntry(), volumetricEntry(), scalableEntry()};
+            farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(), gtaoEntry(), visibilityBitmaskEntry(), ssaoEntry(),
+            volumetricEntry(), scalableEntry()};
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

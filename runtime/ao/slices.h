@@ -9,8 +9,8 @@ enum class SliceBlur : uint32_t { none, edges, surface };
 inline constexpr const char* kSliceAxes[] = {"screen", "view ray"};
 inline constexpr const char* kSliceBlurs[] = {"none", "edges", "surface"};
 
-inline constexpr Parameter kSlices{"slices", "", 1, 32, 3, true, {},
-    "Slices of the hemisphere around the view ray. Cost grows with slices x steps. Too few: noise."};
+inline constexpr Parameter kSlices{
+    "slices", "", 1, 32, 3, true, {}, "Slices of the hemisphere around the view ray. Cost grows with slices x steps. Too few: noise."};
 inline constexpr Parameter kSliceSteps{"steps", "", 1, 32, 3, true, {},
     "Samples to each side of a slice, out to the falloff's reach. Cost grows with slices x steps. Too few: thin objects are missed."};
 inline constexpr Parameter kSliceAxis{"axis", "", 0, 1, 0, true, {kSliceAxes, 2},

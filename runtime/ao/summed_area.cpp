@@ -10,13 +10,18 @@ struct RowConstants {
     uint32_t layers, masked;
     uint32_t masks[SummedArea::kMostLayers], values[SummedArea::kMostLayers];
 };
-struct ColumnConstants { uint32_t columns, rows; };
+struct ColumnConstants {
+    uint32_t columns, rows;
+};
 
 }  // namespace
 
 Status SummedArea::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SummedArea& out, uint32_t blocks) {
     if (blocks == 0) blocks = device.caps().software ? 1 : 16;
-    const struct { const char* name; gpu::Program* program; } programs[] = {{"ao/common/sum_rows.comp", &out.m_rows}, {"ao/common/sum_columns.comp", &out.m_columns}};
+    const struct {
+        const char* name;
+        gpu::Program* program;
+    } programs[] = {{"ao/common/sum_rows.comp", &out.m_rows}, {"ao/common/sum_columns.comp", &out.m_columns}};
     for (const auto& [name, program] : programs)
         if (gpu::Program::compute(device, shaders, name, {{0, blocks}}, *program) != gpu::Status::ok) return Status::shaderError;
     return Status::ok;
@@ -28,7 +33,7 @@ void SummedArea::add(graph::Graph& graph, const std::string& name, graph::Buffer
 }
 
 void SummedArea::add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId codes, graph::BufferId table,
-                     shared::uvec2 size, std::span<const Layer> layers) {
+    shared::uvec2 size, std::span<const Layer> layers) {
     assert(!layers.empty() && layers.size() <= kMostLayers);
     RowConstants rows{size, uint32_t(layers.size()), 0, {}, {}};
     for (size_t i = 0; i < layers.size(); ++i) {

@@ -15,7 +15,9 @@ namespace obscura::ao {
 class SummedArea {
 public:
     // Which texels a layer sums: those with (code & mask) == value.
-    struct Layer { uint32_t mask, value; };
+    struct Layer {
+        uint32_t mask, value;
+    };
     static constexpr uint32_t kMostLayers = 4;
 
     // blocks: number of invocations that share a line, 1 to 16; 0: 1 on software devices, else 16.
@@ -26,7 +28,7 @@ public:
     // one layer, of all texels.
     void add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId table, shared::uvec2 size);
     void add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId codes, graph::BufferId table,
-             shared::uvec2 size, std::span<const Layer> layers);
+        shared::uvec2 size, std::span<const Layer> layers);
 
 private:
     gpu::Program m_rows;

@@ -16,11 +16,12 @@ struct Reprojection {  // temporal.comp
 }  // namespace
 
 Status Temporal::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Temporal& out) {
-    return gpu::Program::compute(device, shaders, "ao/common/temporal.comp", {}, out.m_reproject) == gpu::Status::ok ? Status::ok : Status::shaderError;
+    return gpu::Program::compute(device, shaders, "ao/common/temporal.comp", {}, out.m_reproject) == gpu::Status::ok ? Status::ok
+                                                                                                                     : Status::shaderError;
 }
 
-graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings, bool discard,
-                             const char* passName) {
+graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings,
+    bool discard, const char* passName) {
     if (!inputs.motion || settings.history <= 0.0f) {
         graph.onRecorded([this] { m_history.invalidate(); });  // it would be older than one frame
         return visibility;
@@ -37,8 +38,17 @@ graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::I
     constants.clipFloor = settings.clipFloor;
     constants.valid = history.valid ? 1 : 0;
     const graph::ImageId result = graph.image(passName, graph.desc(visibility));
-    graph.pass(passName, m_reproject).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(inputs.motion).read(visibility)
-        .read(history.previous).write(result).write(history.current).constants(constants).dispatch(size.x, size.y);
+    graph.pass(passName, m_reproject)
+        .read(inputs.viewBlock)
+        .read(inputs.depth)
+        .read(inputs.normals)
+        .read(inputs.motion)
+        .read(visibility)
+        .read(history.previous)
+        .write(result)
+        .write(history.current)
+        .constants(constants)
+        .dispatch(size.x, size.y);
     return result;
 }
 

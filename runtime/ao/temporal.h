@@ -15,7 +15,7 @@ struct TemporalSettings {
     // rest. The deviation is of 3x3 pixels, two apart, after removing their slope, plus the pixel's own change over time. 0: off, as in the
     // papers.
     float clip = 1.5f;
-    float clipFloor = 0.01f;       // visibility added to that interval
+    float clipFloor = 0.01f;  // visibility added to that interval
 };
 
 // Temporal reprojection. Needs Inputs::motion; without it visibility passes through. Owns its history.
@@ -25,7 +25,7 @@ public:
     // visibility: R16F, visible size. Returns a new image of the same kind.
     // `discard`: history is not used this frame (camera cut, method switch).
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings, bool discard,
-                       const char* passName);
+        const char* passName);
 
 private:
     gpu::Program m_reproject;

@@ -5,25 +5,44 @@
 namespace obscura::ao {
 
 Status Upsample::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Upsample& out) {
-    if (gpu::Program::compute(device, shaders, "ao/common/upsample_rows.comp", {}, out.m_rows) != gpu::Status::ok) return Status::shaderError;
+    if (gpu::Program::compute(device, shaders, "ao/common/upsample_rows.comp", {}, out.m_rows) != gpu::Status::ok)
+        return Status::shaderError;
     for (uint32_t joins = 0; joins < 2; ++joins)
-        if (gpu::Program::compute(device, shaders, "ao/common/upsample_columns.comp", {{0, joins}}, out.m_columns[joins]) != gpu::Status::ok)
+        if (gpu::Program::compute(device, shaders, "ao/common/upsample_columns.comp", {{0, joins}}, out.m_columns[joins]) !=
+            gpu::Status::ok)
             return Status::shaderError;
     return Status::ok;
 }
 
-graph::ImageId Upsample::add(graph::Graph& graph, const Inputs& inputs, const Map& map, const UpsampleSettings& settings, const char* prefix,
-                             graph::ImageId other) {
-    const struct { int32_t scale; float window, range; } constants{int32_t(settings.scale), settings.window, settings.range};
+graph::ImageId Upsample::add(
+    graph::Graph& graph, const Inputs& inputs, const Map& map, const UpsampleSettings& settings, const char* prefix, graph::ImageId other) {
+    const struct {
+        int32_t scale;
+        float window, range;
+    } constants{int32_t(settings.scale), settings.window, settings.range};
     const auto& visible = inputs.view.visible;
     const uint32_t height = graph.desc(map.visibility).height;
     const std::string name = prefix;
     const graph::ImageId rows = graph.image(name + ".rows", {VK_FORMAT_R16_SFLOAT, visible.x, height});
     const graph::ImageId visibility = graph.image(name + ".visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-    graph.pass(name + ".rows", m_rows).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(map.visibility).read(map.receivers).write(rows)
-        .constants(constants).dispatch(visible.x, height);
-    graph.pass(name + ".columns", m_columns[other ? 1 : 0]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(rows)
-        .read(other ? other : rows).write(visibility).constants(constants).dispatch(visible.x, visible.y);
+    graph.pass(name + ".rows", m_rows)
+        .read(inputs.viewBlock)
+        .read(inputs.depth)
+        .read(inputs.normals)
+        .read(map.visibility)
+        .read(map.receivers)
+        .write(rows)
+        .constants(constants)
+        .dispatch(visible.x, height);
+    graph.pass(name + ".columns", m_columns[other ? 1 : 0])
+        .read(inputs.viewBlock)
+        .read(inputs.depth)
+        .read(inputs.normals)
+        .read(rows)
+        .read(other ? other : rows)
+        .write(visibility)
+        .constants(constants)
+        .dispatch(visible.x, visible.y);
     return visibility;
 }
 

@@ -22,7 +22,7 @@ public:
     // Returns visibility, R16F, visible size. With `other`, an image of that kind, returns max(0, other - (1 - map)). Pass names begin with
     // `prefix`.
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Map& map, const UpsampleSettings& settings, const char* prefix,
-                       graph::ImageId other = {});
+        graph::ImageId other = {});
 
 private:
     gpu::Program m_rows, m_columns[2];  // without and with `other`

@@ -39,7 +39,8 @@ bool Values::set(const char* id, float value) {
 }
 
 bool Values::has(const char* id) const {
-    return std::any_of(m_info->parameters.begin(), m_info->parameters.end(), [id](const Parameter& parameter) { return std::strcmp(parameter.id, id) == 0; });
+    return std::any_of(m_info->parameters.begin(), m_info->parameters.end(),
+        [id](const Parameter& parameter) { return std::strcmp(parameter.id, id) == 0; });
 }
 
 float Values::operator[](const char* id) const {
@@ -58,6 +59,8 @@ uint32_t needs(const Values& values) {
     return entry.needs ? result | entry.needs(values) : result;
 }
 
-LayerMode layerModeOf(const Values& values) { return values.has("depth_layers") ? LayerMode(values.count("depth_layers")) : LayerMode::none; }
+LayerMode layerModeOf(const Values& values) {
+    return values.has("depth_layers") ? LayerMode(values.count("depth_layers")) : LayerMode::none;
+}
 
 }  // namespace obscura::ao

@@ -11,14 +11,19 @@ namespace obscura::ao {
 Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
     const float* p = frame.projection;
     const uint32_t width = frame.size.width, height = frame.size.height;
-    const auto fail = [&](const char* why) { reason = why; return Status::invalid; };
+    const auto fail = [&](const char* why) {
+        reason = why;
+        return Status::invalid;
+    };
     if (width == 0 || height == 0) return fail("Frame::size is zero");
-    if (2 * uint64_t(frame.guard.width) >= width || 2 * uint64_t(frame.guard.height) >= height) return fail("Frame::guard, on both sides, is not less than Frame::size");
+    if (2 * uint64_t(frame.guard.width) >= width || 2 * uint64_t(frame.guard.height) >= height)
+        return fail("Frame::guard, on both sides, is not less than Frame::size");
     for (int i = 0; i < 16; ++i)
         if (!std::isfinite(p[i])) return fail("Frame::projection holds a value that is not finite");
     if (p[0] == 0.0f || p[5] == 0.0f) return fail("Frame::projection scales x or y to 0");
     const bool perspective = p[11] != 0.0f;
-    if (perspective && p[11] > 0.0f) return fail("Frame::projection looks down +z, eye space looks down -z: negate its third column (ao.h, Space)");
+    if (perspective && p[11] > 0.0f)
+        return fail("Frame::projection looks down +z, eye space looks down -z: negate its third column (ao.h, Space)");
     if (!perspective && (p[15] == 0.0f || p[10] == 0.0f)) return fail("Frame::projection is neither perspective nor orthographic");
 
     const float w = perspective ? -p[11] : p[15];
@@ -30,26 +35,34 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
     const float offsetX = perspective ? p[8] : -p[12];
     const float offsetY = perspective ? p[9] : -p[13];
     view.unproject = {2.0f * w / (float(width) * p[0]), 2.0f * w / (float(height) * p[5]), (offsetX - w) / p[0], (offsetY - w) / p[5]};
-    view.project = {1.0f / view.unproject.x, 1.0f / view.unproject.y, -view.unproject.z / view.unproject.x, -view.unproject.w / view.unproject.y};
+    view.project = {
+        1.0f / view.unproject.x, 1.0f / view.unproject.y, -view.unproject.z / view.unproject.x, -view.unproject.w / view.unproject.y};
     view.pixelsPerMetre = std::fabs(view.project.y);
     view.linearize = perspective ? shared::vec4{0.0f, p[14], w, p[10]} : shared::vec4{-w, p[14], 0.0f, p[10]};
-    if (frame.depthKind == DepthKind::device && perspective && p[14] == 0.0f) return fail("Frame::projection gives every depth the same value");
+    if (frame.depthKind == DepthKind::device && perspective && p[14] == 0.0f)
+        return fail("Frame::projection gives every depth the same value");
 
     float farPlane = 0.0f;
     for (const float d : {0.0f, 1.0f}) {
         const float depth = (d * view.linearize.x + view.linearize.y) / (d * view.linearize.z + view.linearize.w);
         farPlane = std::isfinite(depth) && depth > 0.0f ? std::max(farPlane, depth) : kSkyDepth;
     }
-    view.skyDepth = std::min(kSkyDepth, frame.skyDepth > 0.0f ? frame.skyDepth : frame.depthKind == DepthKind::linear ? kSkyDepth : farPlane * 0.9999f);
+    view.skyDepth = std::min(kSkyDepth, frame.skyDepth > 0.0f                  ? frame.skyDepth
+                                        : frame.depthKind == DepthKind::linear ? kSkyDepth
+                                                                               : farPlane * 0.9999f);
     view.frame = uint32_t(frame.index);
     return Status::ok;
 }
 
 Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason) {
-    const auto fail = [&](const char* why) { reason = why; return Status::invalid; };
+    const auto fail = [&](const char* why) {
+        reason = why;
+        return Status::invalid;
+    };
     const uint32_t cells = volume.cells;
     const bool dense = volume.structure == VolumeStructure::dense;
-    if (dense && (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0)) return fail("Frame::volume.cells is not a power of two from 8 to 1024");
+    if (dense && (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0))
+        return fail("Frame::volume.cells is not a power of two from 8 to 1024");
     const float* m = volume.cellFromEye;
     for (int i = 0; i < 16; ++i)
         if (!std::isfinite(m[i])) return fail("Frame::volume.cellFromEye holds a value that is not finite");
@@ -57,7 +70,8 @@ Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason
     if (!(scale > 0.0f)) return fail("Frame::volume.cellFromEye has scale 0");
     for (int row = 0; row < 3; ++row) block.rows[row] = {m[row], m[4 + row], m[8 + row], m[12 + row]};
     const uint32_t mask = dense ? cells - 1 : ~0u;
-    block.shift = {uint32_t(volume.origin[0]) & mask, uint32_t(volume.origin[1]) & mask, uint32_t(volume.origin[2]) & mask, dense ? cells : 0};
+    block.shift = {
+        uint32_t(volume.origin[0]) & mask, uint32_t(volume.origin[1]) & mask, uint32_t(volume.origin[2]) & mask, dense ? cells : 0};
     block.anchor = {0.0f, 0.0f, 0.0f, 1.0f / scale};
     return Status::ok;
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/complaint.h"
 
@@ -49,13 +49,15 @@ glm::uvec2 sizeOf(const std::string& text) {
     bool valid = list.size() == 2;
     for (const float side : list) valid = valid && side == std::floor(side) && side >= kMinimum && side <= kMaximum;
     if (!valid)
-        throw Complaint(fmt::format("--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels, such as 640x360", text, kMinimum,
-                                    kMaximum));
+        throw Complaint(fmt::format(
+            "--size {}: write WIDTHxHEIGHT, each a whole number from {} to {} pixels, such as 640x360", text, kMinimum, kMaximum));
     return {uint32_t(list[0]), uint32_t(list[1])};
 }
 
 std::string shellWord(const std::string& word) {
-    if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string::npos) return word;
+    if (!word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%") == std::string::npos)
+        return word;
     std::string text = "'";
     for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";

@@ -60,16 +60,18 @@ gpu::Status Capture::addRaw(graph::Graph& graph, graph::ImageId image, Raw done)
         .use(buffer, graph::Access::transferWrite)
         .keep()
         .record([=](const graph::PassContext& context) {
-            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {desc.width, desc.height, 1}};
+            const VkBufferImageCopy region{
+                .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {desc.width, desc.height, 1}};
             const gpu::Api& vk = context.device.vk();
             vk.CmdCopyImageToBuffer(context.cmd, context.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, 1, &region);
             // The fence alone does not make device writes visible to the host.
             const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                          .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                          .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                          .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                          .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-            const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
+                .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+            const VkDependencyInfo dependency{
+                .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
             vk.CmdPipelineBarrier2(context.cmd, &dependency);
         });
     m_pending.push_back(std::move(pending));

@@ -4,22 +4,20 @@
 
 namespace obscura::app {
 
-double now() {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 Frames::Frames(gpu::Device& device) : m_device(device), m_executor(device), m_slots(device.framesInFlight()) {
     const gpu::Api& vk = device.vk();
     for (Slot& slot : m_slots) {
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                           .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                           .queueFamilyIndex = device.queueFamily()};
+            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+            .queueFamilyIndex = device.queueFamily()};
         m_good = m_good && vk.CreateCommandPool(device.handle(), &pool, device.allocator(), &slot.pool) == VK_SUCCESS;
         if (!m_good) return;
         const VkCommandBufferAllocateInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                   .commandPool = slot.pool,
-                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                   .commandBufferCount = 1};
+            .commandPool = slot.pool,
+            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+            .commandBufferCount = 1};
         const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
         m_good = vk.AllocateCommandBuffers(device.handle(), &commands, &slot.commands) == VK_SUCCESS &&
                  vk.CreateFence(device.handle(), &fence, device.allocator(), &slot.fence) == VK_SUCCESS;
@@ -58,8 +56,8 @@ gpu::Status Frames::begin(graph::Graph& graph) {
     m_begun = now();
     m_device.nextFrame();
     const gpu::Api& vk = m_device.vk();
-    const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    const VkCommandBufferBeginInfo info{
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     VkResult result = vk.ResetCommandPool(m_device.handle(), slot.pool, 0);
     if (result == VK_SUCCESS) result = vk.BeginCommandBuffer(slot.commands, &info);
     if (result != VK_SUCCESS) return gpu::fromVulkan(result);
@@ -74,17 +72,16 @@ gpu::Status Frames::end(graph::Graph& graph, VkSemaphore waitFor, VkSemaphore si
     if (const VkResult result = vk.EndCommandBuffer(slot.commands); result != VK_SUCCESS) return gpu::fromVulkan(result);
 
     const VkSemaphoreSubmitInfo waits{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, .semaphore = waitFor, .stageMask = kAcquireStages};
-    const VkSemaphoreSubmitInfo signals{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-                                        .semaphore = signal,
-                                        .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+    const VkSemaphoreSubmitInfo signals{
+        .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, .semaphore = signal, .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
     const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = slot.commands};
     const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                               .waitSemaphoreInfoCount = waitFor ? 1u : 0u,
-                               .pWaitSemaphoreInfos = &waits,
-                               .commandBufferInfoCount = 1,
-                               .pCommandBufferInfos = &commands,
-                               .signalSemaphoreInfoCount = signal ? 1u : 0u,
-                               .pSignalSemaphoreInfos = &signals};
+        .waitSemaphoreInfoCount = waitFor ? 1u : 0u,
+        .pWaitSemaphoreInfos = &waits,
+        .commandBufferInfoCount = 1,
+        .pCommandBufferInfos = &commands,
+        .signalSemaphoreInfoCount = signal ? 1u : 0u,
+        .pSignalSemaphoreInfos = &signals};
     const VkResult result = vk.QueueSubmit2(m_device.queue(), 1, &submit, slot.fence);
     slot.submitted = result == VK_SUCCESS;
     m_record = now() - m_begun;

@@ -95,26 +95,27 @@ bool Overlay::createObjects(VkFormat format) {
     m_framebuffers.assign(m_device.framesInFlight(), VK_NULL_HANDLE);
     // The graph makes the layout transitions before and after this render pass.
     const VkAttachmentDescription attachment{.format = format,
-                                             .samples = VK_SAMPLE_COUNT_1_BIT,
-                                             .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
-                                             .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                             .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                             .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                             .initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                             .finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+        .samples = VK_SAMPLE_COUNT_1_BIT,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+        .initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        .finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 1, .pColorAttachments = &reference};
+    const VkSubpassDescription subpass{
+        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 1, .pColorAttachments = &reference};
     const VkRenderPassCreateInfo renderPass{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                            .attachmentCount = 1,
-                                            .pAttachments = &attachment,
-                                            .subpassCount = 1,
-                                            .pSubpasses = &subpass};
+        .attachmentCount = 1,
+        .pAttachments = &attachment,
+        .subpassCount = 1,
+        .pSubpasses = &subpass};
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8};
     const VkDescriptorPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                          .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                                          .maxSets = 8,
-                                          .poolSizeCount = 1,
-                                          .pPoolSizes = &size};
+        .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
+        .maxSets = 8,
+        .poolSizeCount = 1,
+        .pPoolSizes = &size};
     return m_createRenderPass(m_device.handle(), &renderPass, m_device.allocator(), &m_renderPass) == VK_SUCCESS &&
            m_device.vk().CreateDescriptorPool(m_device.handle(), &pool, m_device.allocator(), &m_pool) == VK_SUCCESS;
 }
@@ -139,20 +140,20 @@ void Overlay::add(graph::Graph& graph, graph::ImageId picture, uint32_t slot) {
         m_destroyFramebuffer(m_device.handle(), framebuffer, m_device.allocator());
         const VkImageView view = context.view(picture);
         const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                           .renderPass = m_renderPass,
-                                           .attachmentCount = 1,
-                                           .pAttachments = &view,
-                                           .width = desc.width,
-                                           .height = desc.height,
-                                           .layers = 1};
+            .renderPass = m_renderPass,
+            .attachmentCount = 1,
+            .pAttachments = &view,
+            .width = desc.width,
+            .height = desc.height,
+            .layers = 1};
         if (m_createFramebuffer(m_device.handle(), &info, m_device.allocator(), &framebuffer) != VK_SUCCESS) {
             framebuffer = VK_NULL_HANDLE;
             return;
         }
         const VkRenderPassBeginInfo begin{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                          .renderPass = m_renderPass,
-                                          .framebuffer = framebuffer,
-                                          .renderArea = {{}, {desc.width, desc.height}}};
+            .renderPass = m_renderPass,
+            .framebuffer = framebuffer,
+            .renderArea = {{}, {desc.width, desc.height}}};
         m_beginRenderPass(context.cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
         ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), context.cmd);
         m_endRenderPass(context.cmd);

@@ -20,7 +20,7 @@ public:
     void beginFrame();
     // Ends the ImGui frame and adds its pass. `slot`: Frames::slot(); the GPU has finished the slot's previous frame.
     void add(graph::Graph& graph, graph::ImageId picture, uint32_t slot);
-    void skip();  // ends the ImGui frame without drawing
+    void skip();              // ends the ImGui frame without drawing
     bool wantsKeys() const;   // a text field has the keyboard
     bool wantsMouse() const;  // the pointer is over a panel
 

@@ -50,7 +50,8 @@ bool Presenter::createSurface(std::string& error) {
     vk.GetPhysicalDeviceSurfaceFormatsKHR(m_device.physical(), m_surface, &count, formats.data());
     // The image is sRGB-encoded already, hence a UNORM format: an SRGB one would encode it twice.
     const auto plain = std::find_if(formats.begin(), formats.end(), [&](const VkSurfaceFormatKHR& f) {
-        return (f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM || f.format == VK_FORMAT_A8B8G8R8_UNORM_PACK32) &&
+        return (f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM ||
+                   f.format == VK_FORMAT_A8B8G8R8_UNORM_PACK32) &&
                f.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR && m_device.formatSupports(f.format, VK_FORMAT_FEATURE_BLIT_DST_BIT);
     });
     if (!supported || known != VK_SUCCESS || plain == formats.end() || !(caps.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT)) {
@@ -86,7 +87,7 @@ bool Presenter::createSwapchain() {
     if (size.width == ~0u) {  // the swapchain decides the surface's size
         const VkExtent2D window = m_window.size();
         size = {std::clamp(window.width, caps.minImageExtent.width, caps.maxImageExtent.width),
-                std::clamp(window.height, caps.minImageExtent.height, caps.maxImageExtent.height)};
+            std::clamp(window.height, caps.minImageExtent.height, caps.maxImageExtent.height)};
     }
     if (size.width == 0 || size.height == 0) return false;
 
@@ -97,18 +98,18 @@ bool Presenter::createSwapchain() {
                                                   ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                                   : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
-                                        .surface = m_surface,
-                                        .minImageCount = images,
-                                        .imageFormat = m_format.format,
-                                        .imageColorSpace = m_format.colorSpace,
-                                        .imageExtent = size,
-                                        .imageArrayLayers = 1,
-                                        .imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                                        .imageSharingMode = VK_SHARING_MODE_EXCLUSIVE,
-                                        .preTransform = caps.currentTransform,
-                                        .compositeAlpha = alpha,
-                                        .presentMode = presentMode(),
-                                        .clipped = VK_TRUE};
+        .surface = m_surface,
+        .minImageCount = images,
+        .imageFormat = m_format.format,
+        .imageColorSpace = m_format.colorSpace,
+        .imageExtent = size,
+        .imageArrayLayers = 1,
+        .imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .imageSharingMode = VK_SHARING_MODE_EXCLUSIVE,
+        .preTransform = caps.currentTransform,
+        .compositeAlpha = alpha,
+        .presentMode = presentMode(),
+        .clipped = VK_TRUE};
     if (const VkResult made = vk.CreateSwapchainKHR(m_device.handle(), &info, m_device.allocator(), &m_swapchain); made != VK_SUCCESS) {
         m_swapchain = VK_NULL_HANDLE;
         m_surfaceLost = made == VK_ERROR_SURFACE_LOST_KHR;
@@ -152,7 +153,8 @@ bool Presenter::acquire(uint32_t slot) {
     // A new swapchain that is out of date means that the window is being resized: one more attempt now, the next one next frame.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if ((m_stale || !m_swapchain) && !createSwapchain()) return false;
-        const VkResult result = m_device.vk().AcquireNextImageKHR(m_device.handle(), m_swapchain, UINT64_MAX, m_acquired[slot], VK_NULL_HANDLE, &m_image);
+        const VkResult result =
+            m_device.vk().AcquireNextImageKHR(m_device.handle(), m_swapchain, UINT64_MAX, m_acquired[slot], VK_NULL_HANDLE, &m_image);
         if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR) {
             m_stale = result == VK_SUBOPTIMAL_KHR;
             return true;
@@ -165,12 +167,13 @@ bool Presenter::acquire(uint32_t slot) {
 }
 
 void Presenter::add(graph::Graph& graph, graph::ImageId picture) {
-    const gpu::ImageDesc desc{.format = m_format.format, .width = m_size.width, .height = m_size.height, .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+    const gpu::ImageDesc desc{
+        .format = m_format.format, .width = m_size.width, .height = m_size.height, .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT};
     const graph::ImageId target = graph.import("window", {.image = m_images[m_image],
-                                                          .desc = desc,
-                                                          .layout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                                          .layoutAfter = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
-                                                          .stages = Frames::kAcquireStages});
+                                                             .desc = desc,
+                                                             .layout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                                             .layoutAfter = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
+                                                             .stages = Frames::kAcquireStages});
     const gpu::ImageDesc source = graph.desc(picture);
     graph.pass("present")
         .use(picture, graph::Access::transferRead)
@@ -179,21 +182,21 @@ void Presenter::add(graph::Graph& graph, graph::ImageId picture) {
         .record([=](const graph::PassContext& context) {
             const auto corner = [](const gpu::ImageDesc& d) { return VkOffset3D{int32_t(d.width), int32_t(d.height), 1}; };
             const VkImageBlit region{.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                     .srcOffsets = {{}, corner(source)},
-                                     .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                     .dstOffsets = {{}, corner(desc)}};
-            context.device.vk().CmdBlitImage(context.cmd, context.image(picture), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.image(target),
-                                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+                .srcOffsets = {{}, corner(source)},
+                .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                .dstOffsets = {{}, corner(desc)}};
+            context.device.vk().CmdBlitImage(context.cmd, context.image(picture), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                context.image(target), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
         });
 }
 
 gpu::Status Presenter::present() {
     const VkPresentInfoKHR info{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
-                                .waitSemaphoreCount = 1,
-                                .pWaitSemaphores = &m_rendered[m_image],
-                                .swapchainCount = 1,
-                                .pSwapchains = &m_swapchain,
-                                .pImageIndices = &m_image};
+        .waitSemaphoreCount = 1,
+        .pWaitSemaphores = &m_rendered[m_image],
+        .swapchainCount = 1,
+        .pSwapchains = &m_swapchain,
+        .pImageIndices = &m_image};
     const VkResult result = m_device.vk().QueuePresentKHR(m_device.queue(), &info);
     if (result == VK_SUCCESS) return gpu::Status::ok;
     m_stale = true;

@@ -28,8 +28,8 @@ void Progress::at(size_t done, const std::string& item) {
     const size_t full = std::min(done, m_total) * kWidth / m_total;
     const double seconds = std::chrono::duration<double>(now - m_start).count();
     const std::string left = done ? fmt::format(", {:.0f} s left", seconds / double(done) * double(m_total - std::min(done, m_total))) : "";
-    const std::string line = fmt::format("\r\033[K{} [{}{}] {}/{}{} {:.24}", m_what, std::string(full, '#'), std::string(kWidth - full, '.'),
-                                         done, m_total, left, item);
+    const std::string line = fmt::format(
+        "\r\033[K{} [{}{}] {}/{}{} {:.24}", m_what, std::string(full, '#'), std::string(kWidth - full, '.'), done, m_total, left, item);
     std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
 }

@@ -32,10 +32,10 @@ public:
     void clear();
 
     const std::vector<Series>& passes() const { return m_passes; }  // of the newest frame, in its order
-    double total(std::string_view prefix) const;  // sum of the medians of passes whose names start with `prefix`
-    const Series& gpu() const { return m_gpu; }      // first to last timestamp
-    const Series& cpu() const { return m_cpu; }      // recording and submitting
-    const Series& frame() const { return m_frame; }  // from one frame's begin to the next one's
+    double total(std::string_view prefix) const;                    // sum of the medians of passes whose names start with `prefix`
+    const Series& gpu() const { return m_gpu; }                     // first to last timestamp
+    const Series& cpu() const { return m_cpu; }                     // recording and submitting
+    const Series& frame() const { return m_frame; }                 // from one frame's begin to the next one's
 
 private:
     void push(Series& series, double value) const;

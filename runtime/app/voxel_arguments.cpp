@@ -17,7 +17,9 @@ CLI::Option* addNamed(CLI::App& cli, const char* option, Enum& into, const char*
         for (size_t i = 0; i < count; ++i)
             if (text == names[i]) into = Enum(i);
     };
-    return cli.add_option_function<std::string>(option, set, sentence)->check(CLI::IsMember(std::vector<std::string>(names, names + count)))->default_str(names[size_t(into)]);
+    return cli.add_option_function<std::string>(option, set, sentence)
+        ->check(CLI::IsMember(std::vector<std::string>(names, names + count)))
+        ->default_str(names[size_t(into)]);
 }
 
 constexpr size_t kBarSteps = 100;
@@ -36,19 +38,23 @@ std::function<void(float)> bar() {
 
 void addVoxelArguments(CLI::App& cli, render::Voxelization& into, const std::string& group) {
     cli.add_option("--voxels", into.cells,
-                   "Cells per side of the voxel window around the camera, for methods that trace voxels; 2 MiB at 256, 8 times that at 512")
-        ->group(group)->check(CLI::IsMember({64u, 128u, 256u, 512u}))->capture_default_str();
+           "Cells per side of the voxel window around the camera, for methods that trace voxels; 2 MiB at 256, 8 times that at 512")
+        ->group(group)
+        ->check(CLI::IsMember({64u, 128u, 256u, 512u}))
+        ->capture_default_str();
     cli.add_option("--voxel-size", into.cellSize,
-                   "Side of a cell in metres; 0: the scene's longest side fills the window, at most 0.14. Larger cells darken open places")
-        ->group(group)->check(CLI::Range(0.0f, 1000.0f))->capture_default_str();
+           "Side of a cell in metres; 0: the scene's longest side fills the window, at most 0.14. Larger cells darken open places")
+        ->group(group)
+        ->check(CLI::Range(0.0f, 1000.0f))
+        ->capture_default_str();
     addNamed(cli, "--voxelizer", into.voxelizer, kVoxelizerNames,
-             "openvdb: static geometry once (cached on disk), objects only when they move, on the CPU; gpu: everything, every frame")
+        "openvdb: static geometry once (cached on disk), objects only when they move, on the CPU; gpu: everything, every frame")
         ->group(group);
     addNamed(cli, "--voxel-structure", into.structure, kStructureNames,
-             "dense: one bit per cell in a window around the camera; nanovdb: the whole world as a sparse grid, slower to trace")
+        "dense: one bit per cell in a window around the camera; nanovdb: the whole world as a sparse grid, slower to trace")
         ->group(group);
     addNamed(cli, "--voxel-shell", into.shell, kShellNames,
-             "conservative: every cell that a triangle touches; thin: only enough cells that no path over cell faces crosses a surface")
+        "conservative: every cell that a triangle touches; thin: only enough cells that no path over cell faces crosses a surface")
         ->group(group);
     into.building = bar();
 }

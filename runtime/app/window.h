@@ -6,9 +6,9 @@
 #include <vector>
 
 #define GLFW_INCLUDE_NONE
-#include "gpu/api.h"
 #include <GLFW/glfw3.h>
 #include <glm/glm.hpp>
+#include "gpu/api.h"
 
 namespace obscura::app {
 
@@ -42,8 +42,8 @@ public:
     const std::vector<Click>& clicked() const { return m_clicked; }  // buttons that went down since the last poll
     glm::vec2 mouse() const { return m_mouse; }                      // screen units
     glm::vec2 screenSize() const;                                    // screen units, at least 1
-    glm::vec2 mouseMoved() const { return m_moved; }  // pixels since the last poll
-    void captureMouse(bool on);  // hides the pointer; its movement is then unbounded
+    glm::vec2 mouseMoved() const { return m_moved; }                 // pixels since the last poll
+    void captureMouse(bool on);                                      // hides the pointer; its movement is then unbounded
     bool mouseCaptured() const { return m_captured; }
     void toggleFullScreen();  // on the monitor that shows most of the window; without one it has no effect
     GLFWwindow* handle() const { return m_window; }

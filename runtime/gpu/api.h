@@ -10,6 +10,7 @@
 namespace obscura::gpu {
 
 // Required ones first; a missing one fails the load. Extensions' entry points stay null where the extension is off.
+// clang-format off
 #define OBSCURA_VK_INSTANCE(X) \
     X(DestroyInstance) X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceProperties2) \
     X(GetPhysicalDeviceFeatures2) X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties) \
@@ -43,6 +44,7 @@ namespace obscura::gpu {
 #define OBSCURA_VK_DEVICE_OPTIONAL(X) \
     X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT) \
     X(CreateSwapchainKHR) X(DestroySwapchainKHR) X(GetSwapchainImagesKHR) X(AcquireNextImageKHR) X(QueuePresentKHR)
+// clang-format on
 
 struct Api {
     PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;

@@ -31,9 +31,8 @@ VkDescriptorSet DescriptorPool::allocate(VkDescriptorSetLayout layout) {
 
 bool DescriptorPool::grow() {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kSetsPerPool * 6},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kSetsPerPool * 6},
-                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kSetsPerPool * 3},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * 8}};
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kSetsPerPool * 6}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kSetsPerPool * 3},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * 8}};
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     info.maxSets = kSetsPerPool;
     info.poolSizeCount = uint32_t(std::size(sizes));

@@ -13,7 +13,7 @@ public:
     ~DescriptorPool();
     DescriptorPool(const DescriptorPool&) = delete;
 
-    void reset();  // the frame that used its sets has left the GPU
+    void reset();                                            // the frame that used its sets has left the GPU
     VkDescriptorSet allocate(VkDescriptorSetLayout layout);  // null if there is no memory
 
 private:

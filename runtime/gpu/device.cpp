@@ -36,8 +36,11 @@ std::string unfit(const Api& vk, VkPhysicalDevice physical, uint32_t family) {
 
 std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& error, Status* why) {
     if (why) *why = Status::unsupported;
-    const char* missing = !host.instance ? "instance" : !host.physicalDevice ? "physicalDevice" : !host.device ? "device"
-                        : !host.getInstanceProcAddr ? "getInstanceProcAddr" : nullptr;
+    const char* missing = !host.instance              ? "instance"
+                          : !host.physicalDevice      ? "physicalDevice"
+                          : !host.device              ? "device"
+                          : !host.getInstanceProcAddr ? "getInstanceProcAddr"
+                                                      : nullptr;
     if (missing) {
         error = fmt::format("adopting a Vulkan device: {} is null", missing);
         return nullptr;
@@ -61,7 +64,7 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& er
     device->m_vk.GetPhysicalDeviceProperties(host.physicalDevice, &properties);
     const std::string reason = properties.apiVersion < VK_API_VERSION_1_3
                                    ? fmt::format("it supports Vulkan {}.{}; 1.3 is needed", VK_API_VERSION_MAJOR(properties.apiVersion),
-                                                 VK_API_VERSION_MINOR(properties.apiVersion))
+                                         VK_API_VERSION_MINOR(properties.apiVersion))
                                    : unfit(device->m_vk, host.physicalDevice, host.queueFamily);
     if (!reason.empty()) {
         error = fmt::format("adopting the Vulkan device '{}': {}", properties.deviceName, reason);
@@ -100,9 +103,11 @@ Status Device::finish() {
     m_vk.GetPhysicalDeviceMemoryProperties(m_physical, &m_memory);
 
     if (m_queue) {
-        const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, m_queueFamily};
+        const VkCommandPoolCreateInfo pool{
+            VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, m_queueFamily};
         if (VkResult result = m_vk.CreateCommandPool(m_device, &pool, m_allocator, &m_commandPool)) return fromVulkan(result);
-        const VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, m_commandPool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+        const VkCommandBufferAllocateInfo buffer{
+            VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, m_commandPool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
         if (VkResult result = m_vk.AllocateCommandBuffers(m_device, &buffer, &m_commandBuffer)) return fromVulkan(result);
     }
 
@@ -159,7 +164,8 @@ void Device::destroyReleased(uint64_t lastFrame) {
 
 void Device::destroy(VkObjectType type, uint64_t handle) {
     switch (type) {
-#define OBSCURA_DESTROY(TYPE, Handle, call) case VK_OBJECT_TYPE_##TYPE: return m_vk.call(m_device, (Handle)handle, m_allocator);
+#define OBSCURA_DESTROY(TYPE, Handle, call) \
+    case VK_OBJECT_TYPE_##TYPE: return m_vk.call(m_device, (Handle)handle, m_allocator);
         OBSCURA_DESTROY(IMAGE, VkImage, DestroyImage)
         OBSCURA_DESTROY(IMAGE_VIEW, VkImageView, DestroyImageView)
         OBSCURA_DESTROY(BUFFER, VkBuffer, DestroyBuffer)
@@ -204,9 +210,8 @@ VkSampler Device::sampler(const VkSamplerCreateInfo& info) {
     }
     const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
     const std::array<uint32_t, 18> key{info.flags, info.magFilter, info.minFilter, info.mipmapMode, info.addressModeU, info.addressModeV,
-                                       info.addressModeW, bits(info.mipLodBias), info.anisotropyEnable, bits(info.maxAnisotropy),
-                                       info.compareEnable, info.compareOp, bits(info.minLod), bits(info.maxLod), info.borderColor,
-                                       info.unnormalizedCoordinates};
+        info.addressModeW, bits(info.mipLodBias), info.anisotropyEnable, bits(info.maxAnisotropy), info.compareEnable, info.compareOp,
+        bits(info.minLod), bits(info.maxLod), info.borderColor, info.unnormalizedCoordinates};
     for (const CachedSampler& cached : m_samplers)
         if (cached.key == key) return cached.sampler;
     m_samplers.reserve(m_samplers.size() + 1);  // so that no sampler is lost for want of memory
@@ -239,7 +244,8 @@ bool Device::formatSupports(VkFormat format, VkFormatFeatureFlags features) cons
 Status Device::runNow(const std::function<void(VkCommandBuffer)>& record) {
     if (!m_queue) return fail(*this, Status::unsupported, "immediate commands need a queue, and this device was adopted without one");
     VkResult result = m_vk.ResetCommandPool(m_device, m_commandPool, 0);
-    const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+    const VkCommandBufferBeginInfo begin{
+        VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
     if (result == VK_SUCCESS) result = m_vk.BeginCommandBuffer(m_commandBuffer, &begin);
     if (result == VK_SUCCESS) {
         record(m_commandBuffer);

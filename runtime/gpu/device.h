@@ -22,13 +22,13 @@ enum class Severity : uint8_t { info, warning, error };
 using Log = std::function<void(Severity, const char* message)>;
 
 struct DeviceOptions {
-    std::string name;                 // part of a device name, case-insensitive; empty: discrete, integrated, virtual, software
-    bool validation = false;          // core validation; ignored with a warning when the layer is not installed
-    bool synchronization = false;     // synchronization validation as well
+    std::string name;                             // part of a device name, case-insensitive; empty: discrete, integrated, virtual, software
+    bool validation = false;                      // core validation; ignored with a warning when the layer is not installed
+    bool synchronization = false;                 // synchronization validation as well
     std::vector<const char*> instanceExtensions;  // of the window system
-    bool presentation = false;        // enables VK_KHR_swapchain where offered
+    bool presentation = false;                    // enables VK_KHR_swapchain where offered
     uint32_t framesInFlight = 2;
-    std::string pipelineCacheFile;    // read at creation, written at destruction when changed; empty: none
+    std::string pipelineCacheFile;  // read at creation, written at destruction when changed; empty: none
     Log log;
 };
 
@@ -36,28 +36,28 @@ struct AdoptedDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;   // may stay null: then immediate uploads are refused
+    VkQueue queue = VK_NULL_HANDLE;  // may stay null: then immediate uploads are refused
     uint32_t queueFamily = 0;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     uint32_t framesInFlight = 2;
     const VkAllocationCallbacks* allocator = nullptr;
-    MemorySource memory;              // empty: vkAllocateMemory, once an image or buffer
+    MemorySource memory;  // empty: vkAllocateMemory, once an image or buffer
     Log log;
 };
 
 struct Caps {
     std::string deviceName;
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-    bool software = false;            // a CPU rasterizer: timestamps need a barrier behind them (see Timestamps)
+    bool software = false;  // a CPU rasterizer: timestamps need a barrier behind them (see Timestamps)
     bool timestamps = false;
-    double timestampPeriod = 1.0;     // nanoseconds a tick
+    double timestampPeriod = 1.0;  // nanoseconds a tick
     uint64_t timestampMask = ~0ull;
     bool debugUtils = false;
-    bool validation = false;          // the Khronos layer is on
+    bool validation = false;  // the Khronos layer is on
     bool presentation = false;
-    bool fragmentWrites = false;      // fragment shaders may write images and use atomics; unknown, so false, on adopted devices
-    float maxAnisotropy = 1.0f;       // 1 where the feature is off
-    uint32_t maxImageSize = 4096;     // pixels a side, 2D
+    bool fragmentWrites = false;          // fragment shaders may write images and use atomics; unknown, so false, on adopted devices
+    float maxAnisotropy = 1.0f;           // 1 where the feature is off
+    uint32_t maxImageSize = 4096;         // pixels a side, 2D
     uint64_t maxStorageRange = 1u << 27;  // bytes that a storage buffer's binding may span
 };
 
@@ -97,8 +97,8 @@ public:
 
     // Memory for an image or a buffer, mapped where `wanted` says host visible. The size counts towards memoryUse() until the
     // memory is really freed: framesInFlight frames after its release, or at waitIdle().
-    Status allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool image,
-                    MemoryBlock& block);
+    Status allocate(
+        const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool image, MemoryBlock& block);
     void releaseMemory(const MemoryBlock& block);
     uint64_t memoryUse() const { return m_memoryUse; }  // bytes of device memory allocated by us
 
@@ -125,7 +125,12 @@ private:
     void destroyReleased(uint64_t lastFrame);
     VkResult allocateBlock(const VkMemoryRequirements& needs, bool mapped, bool image, MemoryBlock& block);
     void freeBlock(const MemoryBlock& block);
-    struct Released { uint64_t frame; VkObjectType type; uint64_t handle; MemoryBlock block; };
+    struct Released {
+        uint64_t frame;
+        VkObjectType type;
+        uint64_t handle;
+        MemoryBlock block;
+    };
 
     Api m_vk;
     VkInstance m_instance = VK_NULL_HANDLE;
@@ -145,17 +150,20 @@ private:
     VkPhysicalDeviceMemoryProperties m_memory{};
     Log m_log;
     std::string m_pipelineCacheFile;
-    std::vector<uint8_t> m_pipelineCacheRead;          // as read from the file, to see whether the driver's has changed
+    std::vector<uint8_t> m_pipelineCacheRead;  // as read from the file, to see whether the driver's has changed
     uint64_t m_frame = 0;
     uint64_t m_memoryUse = 0;
     uint64_t m_validationMessages = 0;
-    std::vector<Released> m_released;                  // with spare capacity: destructors add to it, which must not fail
+    std::vector<Released> m_released;  // with spare capacity: destructors add to it, which must not fail
     mutable Status m_failure = Status::ok;
-    struct CachedSampler { std::array<uint32_t, 18> key; VkSampler sampler; };
+    struct CachedSampler {
+        std::array<uint32_t, 18> key;
+        VkSampler sampler;
+    };
     std::vector<CachedSampler> m_samplers;
 
-    friend VkBool32 onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                 const VkDebugUtilsMessengerCallbackDataEXT*, void*);
+    friend VkBool32 onValidation(
+        VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT, const VkDebugUtilsMessengerCallbackDataEXT*, void*);
 };
 
 }  // namespace obscura::gpu

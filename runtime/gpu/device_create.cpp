@@ -42,9 +42,8 @@ std::vector<Candidate> candidates(const Api& vk, VkInstance instance) {
         list.push_back({handle, {}});
         vk.GetPhysicalDeviceProperties(handle, &list.back().properties);
     }
-    std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
-        return rank(a.properties.deviceType) < rank(b.properties.deviceType);
-    });
+    std::stable_sort(list.begin(), list.end(),
+        [](const Candidate& a, const Candidate& b) { return rank(a.properties.deviceType) < rank(b.properties.deviceType); });
     return list;
 }
 
@@ -55,7 +54,8 @@ std::string labels(const std::vector<Candidate>& list) {
 }
 
 bool offers(const std::vector<VkExtensionProperties>& offered, const char* name) {
-    return std::any_of(offered.begin(), offered.end(), [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+    return std::any_of(
+        offered.begin(), offered.end(), [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
 struct Global {  // functions that need no instance
@@ -139,13 +139,13 @@ DeviceOptions withEnvironment(DeviceOptions options) {
 }  // namespace
 
 VkBool32 onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
-                      const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     // Advice on performance and the loader's chatter are no findings.
     if (!(types & VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT)) return VK_FALSE;
     Device& device = *static_cast<Device*>(user);
     std::atomic_ref<uint64_t>(device.m_validationMessages).fetch_add(1, std::memory_order_relaxed);
     device.log(severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? Severity::error : Severity::warning,
-               fmt::format("validation: {}", data && data->pMessage ? data->pMessage : "(no text)"));
+        fmt::format("validation: {}", data && data->pMessage ? data->pMessage : "(no text)"));
     return VK_FALSE;
 }
 
@@ -184,7 +184,8 @@ bool Device::createInstance(const DeviceOptions& options, std::string& error) {
     uint32_t version = VK_API_VERSION_1_0;
     if (global.version) global.version(&version);
     if (!global.createInstance || version < VK_API_VERSION_1_3) {
-        error = fmt::format("the Vulkan loader knows Vulkan {}.{} only; 1.3 is needed", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
+        error = fmt::format(
+            "the Vulkan loader knows Vulkan {}.{} only; 1.3 is needed", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
         return false;
     }
 
@@ -202,7 +203,8 @@ bool Device::createInstance(const DeviceOptions& options, std::string& error) {
         bool there = false;
         const std::vector<VkExtensionProperties> ofLayer = global.extensionsOf(kValidationLayer, &there);
         m_caps.validation = there && debugUtils;
-        if (!m_caps.validation) log(Severity::warning, fmt::format("validation was asked for, but {} is not installed; going on without", kValidationLayer));
+        if (!m_caps.validation)
+            log(Severity::warning, fmt::format("validation was asked for, but {} is not installed; going on without", kValidationLayer));
         else if (options.synchronization && offers(ofLayer, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME))
             extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
@@ -227,7 +229,8 @@ bool Device::createInstance(const DeviceOptions& options, std::string& error) {
     }
     if (VkResult result = global.createInstance(&info, nullptr, &m_instance)) {
         m_instance = VK_NULL_HANDLE;
-        error = fmt::format("no Vulkan instance: {}{}", resultName(result), result == VK_ERROR_INCOMPATIBLE_DRIVER ? "; no Vulkan driver is installed" : "");
+        error = fmt::format("no Vulkan instance: {}{}", resultName(result),
+            result == VK_ERROR_INCOMPATIBLE_DRIVER ? "; no Vulkan driver is installed" : "");
         return false;
     }
     if (const char* missing = m_vk.loadInstance(global.load, m_instance)) {

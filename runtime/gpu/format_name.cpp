@@ -3,6 +3,7 @@
 namespace obscura::gpu {
 
 std::string formatName(VkFormat format) {
+    // clang-format off
     switch (format) {
 #define OBSCURA_FORMAT(name) \
     case VK_FORMAT_##name: return "VK_FORMAT_" #name;
@@ -62,6 +63,7 @@ std::string formatName(VkFormat format) {
 #undef OBSCURA_FORMAT
         default: return "VkFormat " + std::to_string(int(format));
     }
+    // clang-format on
 }
 
 }  // namespace obscura::gpu

@@ -9,8 +9,8 @@ void Device::releaseMemory(const MemoryBlock& block) {
     if (block.memory) m_released.push_back({m_frame, VK_OBJECT_TYPE_DEVICE_MEMORY, (uint64_t)block.memory, block});
 }
 
-Status Device::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool image,
-                        MemoryBlock& block) {
+Status Device::allocate(
+    const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool image, MemoryBlock& block) {
     // Other kinds (lazily allocated, protected, vendors' coherent ones) need features that are not on.
     constexpr VkMemoryPropertyFlags kPlain = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                              VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
@@ -39,7 +39,9 @@ VkResult Device::allocateBlock(const VkMemoryRequirements& needs, bool mapped, b
         block.bytes = needs.size;
         if (result != VK_SUCCESS) return result;
         if (block.memory && block.offset % needs.alignment == 0 && (block.mapped || !mapped)) return VK_SUCCESS;
-        log(Severity::error, !block.memory ? "the host's memory callback gave no memory" : block.offset % needs.alignment
+        log(Severity::error,
+            !block.memory ? "the host's memory callback gave no memory"
+            : block.offset % needs.alignment
                 ? fmt::format("the host's memory callback gave offset {}, not a multiple of {}", block.offset, needs.alignment)
                 : "the host's memory callback gave memory without its address, which was asked for");
         if (block.memory && m_memorySource.free) m_memorySource.free(block);

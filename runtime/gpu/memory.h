@@ -13,8 +13,8 @@ namespace obscura::gpu {
 struct MemoryBlock {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     uint64_t offset = 0, bytes = 0;
-    std::byte* mapped = nullptr;      // address of the first byte, where it was asked for
-    void* token = nullptr;            // the source's own
+    std::byte* mapped = nullptr;  // address of the first byte, where it was asked for
+    void* token = nullptr;        // the source's own
 };
 
 // Device memory from a host's pools instead of vkAllocateMemory. Requirements name only memory types that will do.

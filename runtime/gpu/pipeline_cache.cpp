@@ -70,7 +70,9 @@ void Device::readPipelineCache(const VkPhysicalDeviceProperties& properties) {
                driverHeaderFits(properties, data);
     }
     if (good) m_pipelineCacheRead = std::move(data);
-    else log(Severity::warning, fmt::format("{}: not a pipeline cache of this device and driver; starting with an empty one", m_pipelineCacheFile));
+    else
+        log(Severity::warning,
+            fmt::format("{}: not a pipeline cache of this device and driver; starting with an empty one", m_pipelineCacheFile));
 }
 
 void Device::writePipelineCache() const {
@@ -86,7 +88,8 @@ void Device::writePipelineCache() const {
     const fs::path target = m_pipelineCacheFile;
     // A name of its own, so that two processes ending together do not write into one file; the rename is atomic.
     const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();
-    const fs::path temporary = fmt::format("{}.{:x}.tmp", m_pipelineCacheFile, uint64_t(ticks) ^ uint64_t(reinterpret_cast<uintptr_t>(this)));
+    const fs::path temporary =
+        fmt::format("{}.{:x}.tmp", m_pipelineCacheFile, uint64_t(ticks) ^ uint64_t(reinterpret_cast<uintptr_t>(this)));
     std::error_code error;
     if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
     VkPhysicalDeviceProperties properties;

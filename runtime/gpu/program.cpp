@@ -39,7 +39,7 @@ struct Specialization {
 };
 
 VkResult createGraphicsPipeline(const Device& device, const std::vector<VkPipelineShaderStageCreateInfo>& stages,
-                                const GraphicsState& state, VkPipelineLayout layout, VkPipeline& pipeline) {
+    const GraphicsState& state, VkPipelineLayout layout, VkPipeline& pipeline) {
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = uint32_t(state.colorFormats.size());
     rendering.pColorAttachmentFormats = state.colorFormats.data();
@@ -75,7 +75,8 @@ VkResult createGraphicsPipeline(const Device& device, const std::vector<VkPipeli
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = uint32_t(targets.size());
     blend.pAttachments = targets.data();
-    constexpr VkDynamicState kDynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+    constexpr VkDynamicState kDynamic[] = {
+        VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     dynamic.dynamicStateCount = uint32_t(std::size(kDynamic));
     dynamic.pDynamicStates = kDynamic;
@@ -130,7 +131,8 @@ void Program::swap(Program& other) noexcept {
     std::swap(m_pushConstantBytes, other.m_pushConstantBytes);
 }
 
-Status Program::compute(Device& device, const ShaderLibrary& shaders, std::string_view name, std::initializer_list<Constant> constants, Program& out) {
+Status Program::compute(
+    Device& device, const ShaderLibrary& shaders, std::string_view name, std::initializer_list<Constant> constants, Program& out) {
     out = Program();
     Program made;
     made.m_device = &device;
@@ -144,7 +146,7 @@ Status Program::compute(Device& device, const ShaderLibrary& shaders, std::strin
 }
 
 Status Program::graphics(Device& device, const ShaderLibrary& shaders, std::string_view vertex, std::string_view fragment,
-                         const GraphicsState& state, std::initializer_list<Constant> constants, Program& out) {
+    const GraphicsState& state, std::initializer_list<Constant> constants, Program& out) {
     out = Program();
     Program made;
     made.m_device = &device;
@@ -185,7 +187,9 @@ VkShaderStageFlags Program::stagesOf(const Binding& binding) const {
 
 // On failure the half-made handles go with the object.
 Status Program::build() {
-    const auto bad = [&](Status status, const std::string& why) { return fail(*m_device, status, fmt::format("program '{}': {}", m_name, why)); };
+    const auto bad = [&](Status status, const std::string& why) {
+        return fail(*m_device, status, fmt::format("program '{}': {}", m_name, why));
+    };
     const bool isCompute = m_bindPoint == VK_PIPELINE_BIND_POINT_COMPUTE;
     std::vector<const Shader*> shaders;
     m_generation = 0;
@@ -193,28 +197,33 @@ Status Program::build() {
         if (name->empty()) continue;
         const Shader* shader = m_shaders->find(*name);
         if (!shader || shader->spirv.empty()) return bad(Status::shaderError, fmt::format("there is no shader '{}'", *name));
-        const VkShaderStageFlagBits stage = isCompute ? VK_SHADER_STAGE_COMPUTE_BIT : name == &m_vertex ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
+        const VkShaderStageFlagBits stage = isCompute           ? VK_SHADER_STAGE_COMPUTE_BIT
+                                            : name == &m_vertex ? VK_SHADER_STAGE_VERTEX_BIT
+                                                                : VK_SHADER_STAGE_FRAGMENT_BIT;
         if (shader->stage != stage) return bad(Status::invalid, fmt::format("'{}' is a shader of another stage", *name));
         shaders.push_back(shader);
         m_generation += m_shaders->generation(*name);
     }
     if (shaders.empty()) return bad(Status::invalid, "it has no shader");
 
-    struct Merged { Binding binding; VkShaderStageFlags stages; };
+    struct Merged {
+        Binding binding;
+        VkShaderStageFlags stages;
+    };
     std::vector<Merged> merged;
     for (const Shader* shader : shaders) {
         m_stages |= shader->stage;
         m_pushConstantBytes = std::max(m_pushConstantBytes, shader->pushConstantBytes);
         for (const Binding& binding : shader->bindings) {
-            const auto same = std::find_if(merged.begin(), merged.end(), [&](const Merged& m) {
-                return m.binding.set == binding.set && m.binding.binding == binding.binding;
-            });
+            const auto same = std::find_if(merged.begin(), merged.end(),
+                [&](const Merged& m) { return m.binding.set == binding.set && m.binding.binding == binding.binding; });
             if (same == merged.end()) {
                 merged.push_back({binding, VkShaderStageFlags(shader->stage)});
                 continue;
             }
             if (same->binding.kind != binding.kind)
-                return bad(Status::invalid, fmt::format("its stages disagree on what set {} binding {} is ('{}', '{}')", binding.set, binding.binding, same->binding.name, binding.name));
+                return bad(Status::invalid, fmt::format("its stages disagree on what set {} binding {} is ('{}', '{}')", binding.set,
+                                                binding.binding, same->binding.name, binding.name));
             same->binding.reads |= binding.reads;
             same->binding.writes |= binding.writes;
             same->stages |= shader->stage;
@@ -224,7 +233,8 @@ Status Program::build() {
         return std::pair(a.binding.set, a.binding.binding) < std::pair(b.binding.set, b.binding.binding);
     });
     if (m_pushConstantBytes > kMaxPushConstantBytes)
-        return bad(Status::unsupported, fmt::format("{} bytes of push constants; {} are allowed", m_pushConstantBytes, kMaxPushConstantBytes));
+        return bad(
+            Status::unsupported, fmt::format("{} bytes of push constants; {} are allowed", m_pushConstantBytes, kMaxPushConstantBytes));
     m_workgroup = isCompute ? shaders.front()->workgroup : std::array<uint32_t, 3>{1, 1, 1};
     for (const Merged& m : merged) {
         m_bindings.push_back(m.binding);
@@ -282,10 +292,12 @@ Status Program::build() {
             result = createGraphicsPipeline(*m_device, stages, m_state, m_layout, pipeline);
         }
     }
-    for (const VkPipelineShaderStageCreateInfo& stage : stages) vk.DestroyShaderModule(m_device->handle(), stage.module, m_device->allocator());
+    for (const VkPipelineShaderStageCreateInfo& stage : stages)
+        vk.DestroyShaderModule(m_device->handle(), stage.module, m_device->allocator());
     if (result != VK_SUCCESS) {  // an answer that means nothing else is about the shader
         const Status status = fromVulkan(result);
-        return bad(status == Status::invalid ? Status::shaderError : status, fmt::format("the driver refused the pipeline: {}", resultName(result)));
+        return bad(status == Status::invalid ? Status::shaderError : status,
+            fmt::format("the driver refused the pipeline: {}", resultName(result)));
     }
     m_pipeline = pipeline;
     m_device->nameObject(VK_OBJECT_TYPE_PIPELINE, (uint64_t)m_pipeline, m_name.c_str());

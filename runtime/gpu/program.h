@@ -33,13 +33,17 @@ class Program {
 public:
     Program() = default;
     Program(Program&& other) noexcept { swap(other); }
-    Program& operator=(Program&& other) noexcept { Program gone(std::move(other)); swap(gone); return *this; }
+    Program& operator=(Program&& other) noexcept {
+        Program gone(std::move(other));
+        swap(gone);
+        return *this;
+    }
     ~Program();
 
-    static Status compute(Device& device, const ShaderLibrary& shaders, std::string_view name,
-                          std::initializer_list<Constant> constants, Program& out);
+    static Status compute(
+        Device& device, const ShaderLibrary& shaders, std::string_view name, std::initializer_list<Constant> constants, Program& out);
     static Status graphics(Device& device, const ShaderLibrary& shaders, std::string_view vertex, std::string_view fragment,
-                           const GraphicsState& state, std::initializer_list<Constant> constants, Program& out);
+        const GraphicsState& state, std::initializer_list<Constant> constants, Program& out);
 
     explicit operator bool() const { return m_pipeline != VK_NULL_HANDLE; }
     // Rebuilds after a hot reload when needed (old handles are released, deferred). Cheap otherwise.
@@ -51,7 +55,7 @@ public:
     VkDescriptorSetLayout setLayout(uint32_t set) const { return set < m_setLayouts.size() ? m_setLayouts[set] : VK_NULL_HANDLE; }
     VkShaderStageFlags stages() const { return m_stages; }
     // Bindings of one set, merged over stages, sorted by binding.
-    const std::vector<Binding>& bindings() const { return m_bindings; }   // all sets
+    const std::vector<Binding>& bindings() const { return m_bindings; }  // all sets
     VkShaderStageFlags stagesOf(const Binding& binding) const;
     const std::array<uint32_t, 3>& workgroup() const { return m_workgroup; }
     uint32_t pushConstantBytes() const { return m_pushConstantBytes; }

@@ -78,7 +78,11 @@ const char* text(const char* name) { return name ? name : "(unnamed)"; }
 
 // The first use the format does not allow on this device, or null.
 const char* forbiddenUse(const Device& device, const ImageDesc& desc) {
-    struct Use { VkImageUsageFlags usage; VkFormatFeatureFlags feature; const char* name; };
+    struct Use {
+        VkImageUsageFlags usage;
+        VkFormatFeatureFlags feature;
+        const char* name;
+    };
     constexpr Use kUses[] = {
         {VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, "a sampled image"},
         {VK_IMAGE_USAGE_STORAGE_BIT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "a storage image"},
@@ -136,14 +140,18 @@ void Image::swap(Image& other) noexcept {
 Status Image::create(Device& device, const ImageDesc& desc, const char* name, Image& out) {
     out = Image();
     const auto bad = [&](Status status, const std::string& why) {
-        return fail(device, status, fmt::format("image '{}' ({}x{}x{}, {}): {}", text(name), desc.width, desc.height, desc.depth, formatName(desc.format), why));
+        return fail(device, status,
+            fmt::format("image '{}' ({}x{}x{}, {}): {}", text(name), desc.width, desc.height, desc.depth, formatName(desc.format), why));
     };
     const uint32_t largest = std::max({desc.width, desc.height, desc.depth});
     if (desc.format == VK_FORMAT_UNDEFINED || desc.usage == 0) return bad(Status::invalid, "it has no format or no usage");
     if (desc.width == 0 || desc.height == 0 || desc.depth == 0) return bad(Status::invalid, "a side is zero");
-    if (desc.mips == 0 || desc.mips > uint32_t(std::bit_width(largest))) return bad(Status::invalid, fmt::format("it cannot have {} mips", desc.mips));
-    if (largest > device.caps().maxImageSize) return bad(Status::unsupported, fmt::format("{} allows {} a side", device.caps().deviceName, device.caps().maxImageSize));
-    if (const char* use = forbiddenUse(device, desc)) return bad(Status::unsupported, fmt::format("{} cannot use the format as {}", device.caps().deviceName, use));
+    if (desc.mips == 0 || desc.mips > uint32_t(std::bit_width(largest)))
+        return bad(Status::invalid, fmt::format("it cannot have {} mips", desc.mips));
+    if (largest > device.caps().maxImageSize)
+        return bad(Status::unsupported, fmt::format("{} allows {} a side", device.caps().deviceName, device.caps().maxImageSize));
+    if (const char* use = forbiddenUse(device, desc))
+        return bad(Status::unsupported, fmt::format("{} cannot use the format as {}", device.caps().deviceName, use));
 
     const Api& vk = device.vk();
     Image made;
@@ -158,7 +166,8 @@ Status Image::create(Device& device, const ImageDesc& desc, const char* name, Im
     vk.GetImageMemoryRequirements(device.handle(), made.m_image, &needs);
     if (Status status = device.allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, true, made.m_block); status != Status::ok)
         return bad(status, fmt::format("{} bytes of device memory: {}", needs.size, gpu::name(status)));
-    if (VkResult result = vk.BindImageMemory(device.handle(), made.m_image, made.m_block.memory, made.m_block.offset)) return bad(fromVulkan(result), resultName(result));
+    if (VkResult result = vk.BindImageMemory(device.handle(), made.m_image, made.m_block.memory, made.m_block.offset))
+        return bad(fromVulkan(result), resultName(result));
 
     constexpr VkImageUsageFlags kViewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                           VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
@@ -169,7 +178,8 @@ Status Image::create(Device& device, const ImageDesc& desc, const char* name, Im
         view.format = desc.format;
         // Sampling wants one aspect, and stencil is never read here.
         const VkImageAspectFlags aspect = aspectOf(desc.format);
-        view.subresourceRange = {aspect & VK_IMAGE_ASPECT_DEPTH_BIT ? VkImageAspectFlags(VK_IMAGE_ASPECT_DEPTH_BIT) : aspect, 0, desc.mips, 0, 1};
+        view.subresourceRange = {
+            aspect & VK_IMAGE_ASPECT_DEPTH_BIT ? VkImageAspectFlags(VK_IMAGE_ASPECT_DEPTH_BIT) : aspect, 0, desc.mips, 0, 1};
         if (VkResult result = vk.CreateImageView(device.handle(), &view, device.allocator(), &made.m_view)) {
             made.m_view = VK_NULL_HANDLE;
             return bad(fromVulkan(result), resultName(result));
@@ -180,7 +190,8 @@ Status Image::create(Device& device, const ImageDesc& desc, const char* name, Im
             view.subresourceRange.baseMipLevel = mip;
             view.subresourceRange.levelCount = 1;
             VkImageView mipView = VK_NULL_HANDLE;
-            if (VkResult result = vk.CreateImageView(device.handle(), &view, device.allocator(), &mipView)) return bad(fromVulkan(result), resultName(result));
+            if (VkResult result = vk.CreateImageView(device.handle(), &view, device.allocator(), &mipView))
+                return bad(fromVulkan(result), resultName(result));
             made.m_mipViews[mip] = mipView;
         }
     } else {
@@ -235,7 +246,8 @@ Status Buffer::create(Device& device, uint64_t bytes, VkBufferUsageFlags usage, 
     const VkMemoryPropertyFlags wanted = memory == Memory::device ? VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) : kMapped;
     const VkMemoryPropertyFlags preferred = memory == Memory::readback ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : 0;
     if (Status status = device.allocate(needs, wanted, preferred, false, made.m_block); status != Status::ok)
-        return bad(status, fmt::format("{} bytes of {} memory: {}", needs.size, memory == Memory::device ? "device" : "host-visible", gpu::name(status)));
+        return bad(status,
+            fmt::format("{} bytes of {} memory: {}", needs.size, memory == Memory::device ? "device" : "host-visible", gpu::name(status)));
     if (VkResult result = vk.BindBufferMemory(device.handle(), made.m_buffer, made.m_block.memory, made.m_block.offset))
         return bad(fromVulkan(result), resultName(result));
     device.nameObject(VK_OBJECT_TYPE_BUFFER, (uint64_t)made.m_buffer, name);

@@ -24,18 +24,23 @@ class Image {
 public:
     Image() = default;
     Image(Image&& other) noexcept { swap(other); }
-    Image& operator=(Image&& other) noexcept { Image gone(std::move(other)); swap(gone); return *this; }
+    Image& operator=(Image&& other) noexcept {
+        Image gone(std::move(other));
+        swap(gone);
+        return *this;
+    }
     ~Image();
     // On failure `out` is empty and one line was logged.
     static Status create(Device& device, const ImageDesc& desc, const char* name, Image& out);
 
     explicit operator bool() const { return m_image != VK_NULL_HANDLE; }
     VkImage handle() const { return m_image; }
-    VkImageView view() const { return m_view; }                       // all mips
+    VkImageView view() const { return m_view; }  // all mips
     VkImageView mipView(uint32_t mip) const { return m_mipViews[mip]; }
     const ImageDesc& desc() const { return m_desc; }
     uint64_t bytes() const { return m_block.bytes; }
-    static uint64_t bytesOf(Device& device, const ImageDesc& desc);   // memory that one would take; allocates nothing; 0 if it cannot be made
+    static uint64_t bytesOf(
+        Device& device, const ImageDesc& desc);  // memory that one would take; allocates nothing; 0 if it cannot be made
 
 private:
     void swap(Image& other) noexcept;
@@ -53,14 +58,18 @@ class Buffer {
 public:
     Buffer() = default;
     Buffer(Buffer&& other) noexcept { swap(other); }
-    Buffer& operator=(Buffer&& other) noexcept { Buffer gone(std::move(other)); swap(gone); return *this; }
+    Buffer& operator=(Buffer&& other) noexcept {
+        Buffer gone(std::move(other));
+        swap(gone);
+        return *this;
+    }
     ~Buffer();
     static Status create(Device& device, uint64_t bytes, VkBufferUsageFlags usage, Memory memory, const char* name, Buffer& out);
 
     explicit operator bool() const { return m_buffer != VK_NULL_HANDLE; }
     VkBuffer handle() const { return m_buffer; }
     uint64_t bytes() const { return m_size; }
-    std::byte* mapped() const { return m_block.mapped; }  // null for Memory::device
+    std::byte* mapped() const { return m_block.mapped; }                                               // null for Memory::device
     static uint64_t bytesOf(Device& device, uint64_t bytes, VkBufferUsageFlags usage, Memory memory);  // likewise
 
 private:

@@ -41,6 +41,7 @@ Status fromVulkan(VkResult result) {
     }
 }
 
+// clang-format off
 const char* resultName(VkResult result) {
     switch (result) {
 #define OBSCURA_CASE(value) case value: return #value;
@@ -58,6 +59,7 @@ const char* resultName(VkResult result) {
         default: return "an unnamed VkResult";
     }
 }
+// clang-format on
 
 const char* typeName(VkPhysicalDeviceType type) {
     switch (type) {

@@ -13,12 +13,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct StageName { VkShaderStageFlagBits stage; std::string_view name; };
-constexpr StageName kStages[] = {{VK_SHADER_STAGE_COMPUTE_BIT, "comp"}, {VK_SHADER_STAGE_VERTEX_BIT, "vert"}, {VK_SHADER_STAGE_FRAGMENT_BIT, "frag"}};
+struct StageName {
+    VkShaderStageFlagBits stage;
+    std::string_view name;
+};
+constexpr StageName kStages[] = {
+    {VK_SHADER_STAGE_COMPUTE_BIT, "comp"}, {VK_SHADER_STAGE_VERTEX_BIT, "vert"}, {VK_SHADER_STAGE_FRAGMENT_BIT, "frag"}};
 
-struct KindName { BindingKind kind; std::string_view name; };
+struct KindName {
+    BindingKind kind;
+    std::string_view name;
+};
 constexpr KindName kKinds[] = {{BindingKind::sampledImage, "sampledImage"}, {BindingKind::storageImage, "storageImage"},
-                               {BindingKind::uniformBuffer, "uniformBuffer"}, {BindingKind::storageBuffer, "storageBuffer"}};
+    {BindingKind::uniformBuffer, "uniformBuffer"}, {BindingKind::storageBuffer, "storageBuffer"}};
 
 // Cuts the text before the separator off the front; all of it where there is none.
 std::string_view cut(std::string_view& text, char separator) {
@@ -67,7 +74,10 @@ void collectFiles(const fs::path& file, const fs::path& root, std::vector<fs::pa
 }
 
 // Newest time and sizes added up. kGone: there is no such file (the zero of file_time_type lies in the future).
-struct FileState { fs::file_time_type time; uint64_t bytes; };
+struct FileState {
+    fs::file_time_type time;
+    uint64_t bytes;
+};
 constexpr fs::file_time_type kGone = fs::file_time_type::min();
 
 // Asks for each file once, however many shaders include it.
@@ -99,8 +109,10 @@ private:
 
 std::string describe(const Shader& shader) {
     std::string_view stage = "comp";
-    for (const StageName& s : kStages) if (s.stage == shader.stage) stage = s.name;
-    std::string text = fmt::format("{} {} {} {} {}", stage, shader.workgroup[0], shader.workgroup[1], shader.workgroup[2], shader.pushConstantBytes);
+    for (const StageName& s : kStages)
+        if (s.stage == shader.stage) stage = s.name;
+    std::string text =
+        fmt::format("{} {} {} {} {}", stage, shader.workgroup[0], shader.workgroup[1], shader.workgroup[2], shader.pushConstantBytes);
     for (const Binding& b : shader.bindings) {
         const char* access = b.reads && b.writes ? "rw" : b.reads ? "r" : b.writes ? "w" : "-";
         text += fmt::format(" {}.{}:{}:{}:{}", b.set, b.binding, kKinds[size_t(b.kind)].name, access, b.name);
@@ -131,7 +143,8 @@ void ShaderLibrary::add(std::span<const EmbeddedShader> shaders) {
         Entry& entry = m_entries[embedded.name];
         entry.shader = {};
         entry.shader.spirv.assign(embedded.spirv.begin(), embedded.spirv.end());
-        entry.error = undescribe(embedded.reflection, entry.shader) ? "" : fmt::format("{}: its embedded description is malformed", embedded.name);
+        entry.error =
+            undescribe(embedded.reflection, entry.shader) ? "" : fmt::format("{}: its embedded description is malformed", embedded.name);
         ++entry.generation;
     }
 }

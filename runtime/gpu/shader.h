@@ -22,15 +22,15 @@ struct Binding {
     uint32_t set = 0;
     uint32_t binding = 0;
     BindingKind kind = BindingKind::sampledImage;
-    bool reads = true;   // false: declared writeonly
-    bool writes = false; // storage that is not declared readonly
+    bool reads = true;    // false: declared writeonly
+    bool writes = false;  // storage that is not declared readonly
     std::string name;
 };
 
 struct Shader {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
     std::vector<uint32_t> spirv;
-    std::vector<Binding> bindings;        // sorted by set, binding
+    std::vector<Binding> bindings;  // sorted by set, binding
     std::array<uint32_t, 3> workgroup{1, 1, 1};
     uint32_t pushConstantBytes = 0;
 };
@@ -41,13 +41,13 @@ struct EmbeddedShader {
     std::span<const uint32_t> spirv;
     const char* reflection;  // as describe() writes it
 };
-std::string describe(const Shader& shader);                          // one line of text
-bool undescribe(std::string_view text, Shader& shader);              // false if malformed
+std::string describe(const Shader& shader);              // one line of text
+bool undescribe(std::string_view text, Shader& shader);  // false if malformed
 
 // Compiles GLSL; on failure returns false and puts file, line and message in `error`. Implemented by runtime/gpu/compiler, so
 // that programs which only run embedded shaders need not link glslang. `dependencies` receives every file read.
 using CompileShader = std::function<bool(const std::filesystem::path& file, const std::filesystem::path& root, Shader& out,
-                                         std::string& error, std::vector<std::filesystem::path>& dependencies)>;
+    std::string& error, std::vector<std::filesystem::path>& dependencies)>;
 
 class ShaderLibrary {
 public:
@@ -69,8 +69,8 @@ private:
         uint64_t generation = 0;
         std::string error;
         std::vector<std::filesystem::path> files;
-        std::filesystem::file_time_type stamp{};   // the newest of `files`
-        uint64_t bytes = 0;                        // and their sizes added up: two saves may share one clock tick
+        std::filesystem::file_time_type stamp{};  // the newest of `files`
+        uint64_t bytes = 0;                       // and their sizes added up: two saves may share one clock tick
     };
     std::map<std::string, Entry, std::less<>> m_entries;
     std::filesystem::path m_root;

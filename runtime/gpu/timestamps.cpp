@@ -46,8 +46,8 @@ void Timestamps::write(VkCommandBuffer cmd) {
     m_device.vk().CmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_queries, m_count++);
     if (!m_device.caps().software) return;
     const VkAccessFlags2 any = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    const VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, any,
-                               VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, any};
+    const VkMemoryBarrier2 all{
+        VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, any, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, any};
     VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.memoryBarrierCount = 1;
     info.pMemoryBarriers = &all;
@@ -55,8 +55,8 @@ void Timestamps::write(VkCommandBuffer cmd) {
 }
 
 void Timestamps::end(VkCommandBuffer cmd) {
-    const VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0,
-                               VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+    const VkMemoryBarrier2 all{
+        VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
     VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.memoryBarrierCount = 1;
     info.pMemoryBarriers = &all;
@@ -74,7 +74,8 @@ Status Timestamps::read(std::vector<double>& milliseconds) {
         m_device.release(VK_OBJECT_TYPE_EVENT, std::exchange(m_executed, VK_NULL_HANDLE));
     if (count < 2) return Status::ok;  // a frame without a pass
     std::vector<uint64_t> ticks(count);
-    const VkResult result = vk.GetQueryPoolResults(m_device.handle(), m_queries, 0, count, ticks.size() * 8, ticks.data(), 8, VK_QUERY_RESULT_64_BIT);
+    const VkResult result =
+        vk.GetQueryPoolResults(m_device.handle(), m_queries, 0, count, ticks.size() * 8, ticks.data(), 8, VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS) return result == VK_ERROR_DEVICE_LOST ? Status::deviceLost : Status::ok;
     for (uint32_t i = 0; i + 1 < count; ++i)
         milliseconds.push_back(double((ticks[i + 1] - ticks[i]) & m_device.caps().timestampMask) * m_device.caps().timestampPeriod * 1e-6);

@@ -13,9 +13,9 @@ enum class Access : uint8_t {
     storageWrite,      // writeonly
     storageReadWrite,  // atomics, in place
     uniform,
-    color,             // attachment, load or clear and store
-    depth,             // attachment, tested and written
-    depthTest,         // attachment, tested only
+    color,      // attachment, load or clear and store
+    depth,      // attachment, tested and written
+    depthTest,  // attachment, tested only
     vertex,
     index,
     transferRead,

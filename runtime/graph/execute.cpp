@@ -26,11 +26,11 @@ void Executor::barriers(const Recording& recording, VkCommandBuffer cmd, const s
         const Physical& physical = m_physical[b.resource];
         if (resource.isBuffer) {
             buffers.push_back({VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, nullptr, b.srcStages, b.srcAccess, b.dstStages, b.dstAccess,
-                               VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, physical.buffer.buffer, physical.buffer.offset, physical.buffer.bytes});
+                VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, physical.buffer.buffer, physical.buffer.offset, physical.buffer.bytes});
         } else {
-            images.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, nullptr, b.srcStages, b.srcAccess, b.dstStages, b.dstAccess, b.from, b.to,
-                              VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, physical.image,
-                              {gpu::aspectOf(resource.desc.format), b.firstMip, b.mips, 0, 1}});
+            images.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, nullptr, b.srcStages, b.srcAccess, b.dstStages, b.dstAccess, b.from,
+                b.to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, physical.image,
+                {gpu::aspectOf(resource.desc.format), b.firstMip, b.mips, 0, 1}});
         }
     }
     VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
@@ -46,8 +46,8 @@ void Executor::bind(VkCommandBuffer cmd, const Pass& pass) {
     const gpu::Program& program = *pass.m_program;
     vk.CmdBindPipeline(cmd, program.bindPoint(), program.pipeline());
     if (!pass.m_constants.empty() && program.pushConstantBytes() > 0)
-        vk.CmdPushConstants(cmd, program.layout(), program.stages(), 0, std::min(program.pushConstantBytes(), uint32_t(pass.m_constants.size())),
-                            pass.m_constants.data());
+        vk.CmdPushConstants(cmd, program.layout(), program.stages(), 0,
+            std::min(program.pushConstantBytes(), uint32_t(pass.m_constants.size())), pass.m_constants.data());
     if (const VkDescriptorSet set = m_sets[pass.m_index])
         vk.CmdBindDescriptorSets(cmd, program.bindPoint(), program.layout(), 0, 1, &set, 0, nullptr);
 }
@@ -94,7 +94,7 @@ void Executor::run(const Recording& recording, VkCommandBuffer cmd, const Pass& 
     if (pass.m_work == Pass::Work::dispatch) {
         const auto& group = pass.m_program->workgroup();
         vk.CmdDispatch(cmd, (pass.m_size[0] + group[0] - 1) / group[0], (pass.m_size[1] + group[1] - 1) / group[1],
-                       (pass.m_size[2] + group[2] - 1) / group[2]);
+            (pass.m_size[2] + group[2] - 1) / group[2]);
     } else if (pass.m_work == Pass::Work::draw) {
         vk.CmdDraw(cmd, pass.m_size[0], pass.m_size[1], 0, 0);
     } else {

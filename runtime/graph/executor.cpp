@@ -51,7 +51,7 @@ uint64_t Executor::bytes(Graph& graph) const {
     const Plan needed = graph::plan(graph.recording());
     if (logProblems(m_device, needed)) return 0;
     const MemoryOf memory{[&](const gpu::ImageDesc& desc) { return gpu::Image::bytesOf(m_device, desc); },
-                          [&](uint64_t size, VkBufferUsageFlags usage, gpu::Memory where) { return gpu::Buffer::bytesOf(m_device, size, usage, where); }};
+        [&](uint64_t size, VkBufferUsageFlags usage, gpu::Memory where) { return gpu::Buffer::bytesOf(m_device, size, usage, where); }};
     return graph::bytes(graph.recording(), needed, m_device.framesInFlight(), memory);
 }
 
@@ -90,8 +90,9 @@ gpu::Status Executor::makePool(const Plan& plan) {
         Pooled made;
         made.slot = {slot.desc, slot.bytes, std::vector<State>(slot.bytes ? 1 : slot.desc.mips)};
         made.lastUsed = m_device.frame();
-        const gpu::Status status = slot.bytes ? gpu::Buffer::create(m_device, slot.bytes, kPoolBufferUsage, gpu::Memory::device, "graph buffer", made.buffer)
-                                              : gpu::Image::create(m_device, slot.desc, "graph image", made.image);
+        const gpu::Status status =
+            slot.bytes ? gpu::Buffer::create(m_device, slot.bytes, kPoolBufferUsage, gpu::Memory::device, "graph buffer", made.buffer)
+                       : gpu::Image::create(m_device, slot.desc, "graph image", made.image);
         if (status != gpu::Status::ok) return status;
         m_pool.push_back(std::move(made));
     }
@@ -102,7 +103,8 @@ gpu::Status Executor::makeUploads(const Graph& graph, const Plan& plan) {
     std::vector<gpu::Buffer>& chunks = frame().uploads;
     while (chunks.size() < plan.chunks.size()) {
         gpu::Buffer made;
-        const gpu::Status status = gpu::Buffer::create(m_device, plan.chunks[chunks.size()], kUploadUsage, gpu::Memory::upload, "graph upload", made);
+        const gpu::Status status =
+            gpu::Buffer::create(m_device, plan.chunks[chunks.size()], kUploadUsage, gpu::Memory::upload, "graph upload", made);
         if (status != gpu::Status::ok) return status;
         chunks.push_back(std::move(made));
     }
@@ -133,7 +135,9 @@ gpu::Status Executor::makeHistories(const Graph& graph, std::vector<Pending>& hi
 void Executor::bindPhysical(const Graph& graph, const Plan& plan, const std::vector<Pending>& histories) {
     const std::vector<Resource>& resources = graph.m_recording.resources;
     m_physical.assign(resources.size(), {});
-    const auto bindImage = [&](uint32_t resource, const gpu::Image& image) { m_physical[resource] = {image.handle(), image.view(), &image, {}}; };
+    const auto bindImage = [&](uint32_t resource, const gpu::Image& image) {
+        m_physical[resource] = {image.handle(), image.view(), &image, {}};
+    };
     for (uint32_t i = 0; i < resources.size(); ++i) {
         const Graph::Handles& handles = graph.m_handles[i];
         if (resources[i].origin == Origin::imported) m_physical[i] = {handles.image, handles.view, nullptr, handles.buffer};
@@ -147,7 +151,9 @@ void Executor::bindPhysical(const Graph& graph, const Plan& plan, const std::vec
     for (size_t i = 0; i < histories.size(); ++i) {
         const Graph::HistoryUse& use = graph.m_histories[i];
         const uint32_t write = use.history->m_current;
-        const auto imageOf = [&](uint32_t k) -> const gpu::Image& { return histories[i].images[k] ? histories[i].images[k] : use.history->m_images[k]; };
+        const auto imageOf = [&](uint32_t k) -> const gpu::Image& {
+            return histories[i].images[k] ? histories[i].images[k] : use.history->m_images[k];
+        };
         bindImage(use.previous, imageOf(1 - write));
         bindImage(use.current, imageOf(write));
     }
@@ -167,7 +173,7 @@ void Executor::namePool(const Graph& graph, const Plan& plan) {
         pooled.name = names[s];
         const bool isImage = bool(pooled.image);
         m_device.nameObject(isImage ? VK_OBJECT_TYPE_IMAGE : VK_OBJECT_TYPE_BUFFER,
-                            isImage ? uint64_t(pooled.image.handle()) : uint64_t(pooled.buffer.handle()), pooled.name.c_str());
+            isImage ? uint64_t(pooled.image.handle()) : uint64_t(pooled.buffer.handle()), pooled.name.c_str());
     }
 }
 
@@ -202,7 +208,8 @@ gpu::Status Executor::makeSet(const Pass& pass, VkDescriptorSet& set) {
             const bool whole = bound.mip == ~0u && sampled;
             const VkSampler sampler = sampled ? m_device.sampler(bound.sampling) : VK_NULL_HANDLE;
             if (sampled && !sampler) return gpu::Status::outOfMemory;  // the device has said so
-            images[next] = {sampler, whole ? physical.view : physical.mip(bound.mip == ~0u ? 0 : bound.mip), info(accessOf(binding)).layout};
+            images[next] = {
+                sampler, whole ? physical.view : physical.mip(bound.mip == ~0u ? 0 : bound.mip), info(accessOf(binding)).layout};
             write.pImageInfo = &images[next];
         }
         writes.push_back(write);
@@ -234,7 +241,9 @@ void Executor::commit(Graph& graph, Plan& plan, std::vector<Pending>& histories)
         const Resource& resource = graph.m_recording.resources[i];
         if (resource.origin == Origin::history) m_frameBytes += m_physical[i].owned->bytes();
         if (resource.origin == Origin::transient || !resource.isBuffer) continue;
-        const auto same = [&](const Physical& other) { return other.buffer.buffer == m_physical[i].buffer.buffer && other.buffer.offset == m_physical[i].buffer.offset; };
+        const auto same = [&](const Physical& other) {
+            return other.buffer.buffer == m_physical[i].buffer.buffer && other.buffer.offset == m_physical[i].buffer.offset;
+        };
         if (std::none_of(m_physical.begin(), m_physical.begin() + i, same)) m_frameBytes += resource.bytes;
     }
     for (size_t i = 0; i < histories.size(); ++i) {

@@ -62,7 +62,7 @@ private:
     Plan m_plan;
     uint64_t m_frameBytes = 0;
     std::vector<Pooled> m_pool;
-    std::vector<Physical> m_physical;    // by resource, of the frame being recorded
+    std::vector<Physical> m_physical;     // by resource, of the frame being recorded
     std::vector<VkDescriptorSet> m_sets;  // by pass
     std::vector<std::unique_ptr<Frame>> m_frames;
 };

@@ -9,11 +9,23 @@
 namespace obscura::graph {
 
 Pass& Pass::read(ImageId image, Sampling sampling) { return readMip(image, ~0u, sampling); }
-Pass& Pass::readMip(ImageId image, uint32_t mip, Sampling sampling) { m_bound.push_back({false, image.index, mip, sampling, false}); return *this; }
-Pass& Pass::read(BufferId buffer) { m_bound.push_back({true, buffer.index, 0, Sampling::nearest, false}); return *this; }
+Pass& Pass::readMip(ImageId image, uint32_t mip, Sampling sampling) {
+    m_bound.push_back({false, image.index, mip, sampling, false});
+    return *this;
+}
+Pass& Pass::read(BufferId buffer) {
+    m_bound.push_back({true, buffer.index, 0, Sampling::nearest, false});
+    return *this;
+}
 Pass& Pass::write(ImageId image) { return writeMip(image, 0); }
-Pass& Pass::writeMip(ImageId image, uint32_t mip) { m_bound.push_back({false, image.index, mip, Sampling::nearest, true}); return *this; }
-Pass& Pass::write(BufferId buffer) { m_bound.push_back({true, buffer.index, 0, Sampling::nearest, true}); return *this; }
+Pass& Pass::writeMip(ImageId image, uint32_t mip) {
+    m_bound.push_back({false, image.index, mip, Sampling::nearest, true});
+    return *this;
+}
+Pass& Pass::write(BufferId buffer) {
+    m_bound.push_back({true, buffer.index, 0, Sampling::nearest, true});
+    return *this;
+}
 
 Pass& Pass::color(ImageId image, std::optional<VkClearColorValue> clear) {
     VkClearValue value{};
@@ -62,12 +74,15 @@ Pass& Pass::constants(const void* data, uint32_t bytes) {
 
 void Pass::dispatch(uint32_t x, uint32_t y, uint32_t z) {
     m_work = Work::dispatch;
-    m_size[0] = x; m_size[1] = y; m_size[2] = z;
+    m_size[0] = x;
+    m_size[1] = y;
+    m_size[2] = z;
 }
 
 void Pass::draw(uint32_t vertices, uint32_t instances) {
     m_work = Work::draw;
-    m_size[0] = vertices; m_size[1] = instances;
+    m_size[0] = vertices;
+    m_size[1] = instances;
 }
 
 void Pass::record(Record record) {
@@ -121,9 +136,13 @@ ImageId Graph::import(std::string name, const External& external) {
     state.layout = external.layout;
     state.writeStages = external.stages;
     state.writeAccess = external.layout == VK_IMAGE_LAYOUT_UNDEFINED ? 0 : VK_ACCESS_2_MEMORY_WRITE_BIT;
-    return {add({.name = std::move(name), .origin = Origin::imported, .desc = external.desc, .initial = {state},
-                 .finalLayout = external.layoutAfter, .output = true},
-                {external.image, external.view, {}})};
+    return {add({.name = std::move(name),
+                    .origin = Origin::imported,
+                    .desc = external.desc,
+                    .initial = {state},
+                    .finalLayout = external.layoutAfter,
+                    .output = true},
+        {external.image, external.view, {}})};
 }
 
 BufferId Graph::import(std::string name, const gpu::Buffer& buffer, Shared shared) {
@@ -139,16 +158,18 @@ BufferId Graph::import(std::string name, const ExternalBuffer& buffer) {
     state.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     state.writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT;
     return {add({.name = std::move(name), .origin = Origin::imported, .isBuffer = true, .bytes = buffer.bytes, .initial = {state}},
-                {VK_NULL_HANDLE, VK_NULL_HANDLE, buffer})};
+        {VK_NULL_HANDLE, VK_NULL_HANDLE, buffer})};
 }
 
 Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History& history, bool discard) {
-    desc.usage |= VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    desc.usage |=
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const uint32_t write = history.m_current, read = 1 - write;
     const auto side = [&](uint32_t which, std::string of, bool output) {
         const gpu::Image& image = history.m_images[which];
         std::vector<State> states = image && image.desc() == desc ? history.m_states[which] : std::vector<State>(desc.mips);
-        return ImageId{add({.name = std::move(of), .origin = Origin::history, .desc = desc, .initial = std::move(states), .output = output})};
+        return ImageId{
+            add({.name = std::move(of), .origin = Origin::history, .desc = desc, .initial = std::move(states), .output = output})};
     };
     const bool fits = history.m_images[read] && history.m_images[read].desc() == desc;
     HistoryPair pair{side(read, name + ".previous", false), side(write, name, true), history.m_valid && fits && !discard};
@@ -201,29 +222,30 @@ bool Graph::check(const Pass& pass) const {
         return false;
     };
     if (pass.m_work == Pass::Work::none) return fail("neither dispatch, draw nor record was called");
-    if (!pass.m_program) return pass.m_bound.empty() && pass.m_work == Pass::Work::record ? true : fail("has no program to read, write or dispatch with");
+    if (!pass.m_program)
+        return pass.m_bound.empty() && pass.m_work == Pass::Work::record ? true : fail("has no program to read, write or dispatch with");
     if (!*pass.m_program) return fail("its program was never made");
     size_t count = 0;
     for (const gpu::Binding& binding : pass.m_program->bindings()) {
         if (binding.set != 0) continue;
         if (count >= pass.m_bound.size())
-            return fail(fmt::format("{} declares '{}' as binding {}, but only {} resources were given", pass.m_program->name(), binding.name,
-                                    binding.binding, pass.m_bound.size()));
+            return fail(fmt::format("{} declares '{}' as binding {}, but only {} resources were given", pass.m_program->name(),
+                binding.name, binding.binding, pass.m_bound.size()));
         const Pass::Bound& bound = pass.m_bound[count++];
         const std::string& resource = m_recording.resources[bound.resource].name;
         const bool wantsImage = binding.kind == gpu::BindingKind::sampledImage || binding.kind == gpu::BindingKind::storageImage;
         if (wantsImage == bound.isBuffer)
             return fail(fmt::format("'{}' is {}, binding '{}' wants {}", resource, bound.isBuffer ? "a buffer" : "an image", binding.name,
-                                    wantsImage ? "an image" : "a buffer"));
+                wantsImage ? "an image" : "a buffer"));
         if (bound.writes != binding.writes)
             return fail(fmt::format("'{}' is given as {}, the shader {} '{}'", resource, bound.writes ? "written" : "read",
-                                    binding.writes ? "writes" : "only reads", binding.name));
+                binding.writes ? "writes" : "only reads", binding.name));
     }
     if (count != pass.m_bound.size())
         return fail(fmt::format("{} resources were given, {} declares {}", pass.m_bound.size(), pass.m_program->name(), count));
     if (pass.m_program->pushConstantBytes() > pass.m_constants.size() && pass.m_work != Pass::Work::record)
-        return fail(fmt::format("{} wants {} bytes of constants, {} were given", pass.m_program->name(), pass.m_program->pushConstantBytes(),
-                                pass.m_constants.size()));
+        return fail(fmt::format("{} wants {} bytes of constants, {} were given", pass.m_program->name(),
+            pass.m_program->pushConstantBytes(), pass.m_constants.size()));
     return true;
 }
 
@@ -241,7 +263,7 @@ bool Graph::resolve() {
             const bool all = bound.mip == ~0u;
             const uint32_t mips = bound.isBuffer || !all ? 1 : m_recording.resources[bound.resource].desc.mips;
             uses.push_back({bound.resource, bound.isBuffer || all ? 0 : bound.mip, mips, accessOf(binding),
-                            pipelineStages(pass.m_program->stagesOf(binding)), false});
+                pipelineStages(pass.m_program->stagesOf(binding)), false});
         }
     }
     return true;

@@ -41,9 +41,9 @@ private:
 struct External {
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
-    gpu::ImageDesc desc;                                    // one mip
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;       // on entry; UNDEFINED: contents do not matter
-    VkImageLayout layoutAfter = VK_IMAGE_LAYOUT_UNDEFINED;  // UNDEFINED: as the last pass leaves it
+    gpu::ImageDesc desc;                                                  // one mip
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;                     // on entry; UNDEFINED: contents do not matter
+    VkImageLayout layoutAfter = VK_IMAGE_LAYOUT_UNDEFINED;                // UNDEFINED: as the last pass leaves it
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // last used by; also waits on the acquire semaphore here
 };
 
@@ -57,14 +57,17 @@ public:
 
     ImageId image(std::string name, gpu::ImageDesc desc);  // transient; usage is worked out
     ImageId import(std::string name, const External& image);
-    enum class Shared : uint8_t { constant, written };     // constant: the GPU never writes it; written: it may have
+    enum class Shared : uint8_t { constant, written };  // constant: the GPU never writes it; written: it may have
     BufferId import(std::string name, const gpu::Buffer& buffer, Shared shared);
     BufferId import(std::string name, const ExternalBuffer& buffer);
-    BufferId buffer(std::string name, uint64_t bytes);     // transient, device memory
+    BufferId buffer(std::string name, uint64_t bytes);  // transient, device memory
     // Host data for this frame, copied now. Bound as uniform or storage buffer.
     BufferId upload(std::string name, const void* data, size_t bytes);
     template <class T> BufferId upload(std::string name, const T& value) { return upload(std::move(name), &value, sizeof(T)); }
-    struct HistoryPair { ImageId previous, current; bool valid; };
+    struct HistoryPair {
+        ImageId previous, current;
+        bool valid;
+    };
     // `previous` may be read even when not valid: it is cleared to 0. `discard`: not valid this frame, whatever is there (camera cut).
     HistoryPair history(std::string name, gpu::ImageDesc desc, History& history, bool discard = false);
 
@@ -80,7 +83,10 @@ public:
     const gpu::ImageDesc& desc(ImageId id) const { return m_recording.resources[id.index].desc; }
     const std::string& name(ImageId id) const { return m_recording.resources[id.index].name; }
     // What each pass declared so far writes, for "view any pass".
-    struct Written { std::string pass; ImageId image; };
+    struct Written {
+        std::string pass;
+        ImageId image;
+    };
     std::vector<Written> written() const;
     // The uses that the shaders of its passes imply, added to those declared. False, logged, when a pass contradicts its shaders.
     bool resolve();
@@ -89,16 +95,23 @@ public:
 private:
     friend class Pass;
     friend class Executor;
-    struct Handles { VkImage image; VkImageView view; ExternalBuffer buffer; };  // of imported resources
-    struct HistoryUse { History* history; uint32_t previous, current; };
+    struct Handles {
+        VkImage image;
+        VkImageView view;
+        ExternalBuffer buffer;
+    };  // of imported resources
+    struct HistoryUse {
+        History* history;
+        uint32_t previous, current;
+    };
     uint32_t add(Resource resource, Handles handles = {});
     bool check(const Pass& pass) const;
 
     gpu::Device& m_device;
     const Timings* m_timings = nullptr;
     Recording m_recording;
-    std::deque<Pass> m_passes;       // a reference to one is handed out: they do not move
-    std::vector<Handles> m_handles;  // by resource
+    std::deque<Pass> m_passes;         // a reference to one is handed out: they do not move
+    std::vector<Handles> m_handles;    // by resource
     std::vector<std::byte> m_uploads;  // one behind the other; Resource::uploadOffset says where
     std::vector<HistoryUse> m_histories;
     std::vector<std::function<void()>> m_onRecorded;

@@ -12,8 +12,15 @@
 
 namespace obscura::graph {
 
-struct ImageId { uint32_t index = ~0u; explicit operator bool() const { return index != ~0u; } bool operator==(const ImageId&) const = default; };
-struct BufferId { uint32_t index = ~0u; explicit operator bool() const { return index != ~0u; } };
+struct ImageId {
+    uint32_t index = ~0u;
+    explicit operator bool() const { return index != ~0u; }
+    bool operator==(const ImageId&) const = default;
+};
+struct BufferId {
+    uint32_t index = ~0u;
+    explicit operator bool() const { return index != ~0u; }
+};
 
 using gpu::Sampling;
 
@@ -77,8 +84,18 @@ public:
 private:
     friend class Graph;
     friend class Executor;
-    struct Bound { bool isBuffer; uint32_t resource; uint32_t mip; Sampling sampling; bool writes; };
-    struct Attachment { uint32_t resource; bool clear; VkClearValue value; };
+    struct Bound {
+        bool isBuffer;
+        uint32_t resource;
+        uint32_t mip;
+        Sampling sampling;
+        bool writes;
+    };
+    struct Attachment {
+        uint32_t resource;
+        bool clear;
+        VkClearValue value;
+    };
     enum class Work : uint8_t { none, dispatch, draw, record };
     Graph* m_graph = nullptr;
     gpu::Program* m_program = nullptr;

@@ -17,9 +17,9 @@ struct Executor::Physical {
 
 struct Executor::Pooled {
     Slot slot;
-    gpu::Image image;    // this
-    gpu::Buffer buffer;  // or this
-    std::string name;    // debug name
+    gpu::Image image;       // this
+    gpu::Buffer buffer;     // or this
+    std::string name;       // debug name
     uint64_t lastUsed = 0;  // device frame
 };
 

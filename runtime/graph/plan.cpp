@@ -28,14 +28,13 @@ std::vector<bool> alive(const Recording& recording) {
 }
 
 bool isVisible(const State& state, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    return std::any_of(state.visible.begin(), state.visible.end(), [&](const State::Visible& v) {
-        return (v.stages & stages) == stages && (v.access & access) == access;
-    });
+    return std::any_of(state.visible.begin(), state.visible.end(),
+        [&](const State::Visible& v) { return (v.stages & stages) == stages && (v.access & access) == access; });
 }
 
 // Moves one mip's state to its next use; true when a barrier must stand before it, then filled in.
 bool advance(State& state, const AccessInfo& next, VkPipelineStageFlags2 stages, bool isImage, VkImageLayout layout, bool discard,
-             Barrier& barrier) {
+    Barrier& barrier) {
     const bool changesLayout = isImage && state.layout != layout;
     barrier.dstStages = stages;
     barrier.dstAccess = next.access;
@@ -111,7 +110,8 @@ struct Builder {
     void close(uint32_t index) {
         const VkImageLayout layout = recording.resources[index].finalLayout;
         if (layout == VK_IMAGE_LAYOUT_UNDEFINED) return;
-        const AccessInfo leave{"leave", VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, layout, 0, false};
+        const AccessInfo leave{
+            "leave", VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, layout, 0, false};
         for (uint32_t mip = 0; mip < states[index].size(); ++mip) {
             Barrier barrier{index, mip, 1};
             if (!advance(states[index][mip], leave, leave.stages, true, layout, false, barrier)) continue;

@@ -16,9 +16,12 @@ struct State {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkPipelineStageFlags2 writeStages = 0;  // last write or layout change; 0: never written
     VkAccessFlags2 writeAccess = 0;
-    VkPipelineStageFlags2 readStages = 0;   // reads since that write
-    struct Visible { VkPipelineStageFlags2 stages; VkAccessFlags2 access; };
-    std::vector<Visible> visible;           // to whom the write has been made visible
+    VkPipelineStageFlags2 readStages = 0;  // reads since that write
+    struct Visible {
+        VkPipelineStageFlags2 stages;
+        VkAccessFlags2 access;
+    };
+    std::vector<Visible> visible;  // to whom the write has been made visible
 };
 
 enum class Origin : uint8_t {
@@ -37,7 +40,7 @@ struct Resource {
     uint64_t uploadOffset = 0;   // uploads: where their data begins in what the recording holds
     std::vector<State> initial;  // history, imported: one a mip (buffers: one); transients start from their slot's
     VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED;  // imported images: in this layout after the last pass; UNDEFINED: as it comes
-    bool output = false;         // what writes it is not culled
+    bool output = false;                                    // what writes it is not culled
 };
 
 struct Use {
@@ -45,13 +48,13 @@ struct Use {
     uint32_t firstMip = 0, mips = 1;
     Access access = Access::none;
     VkPipelineStageFlags2 stages = 0;
-    bool discard = false;            // a write that needs nothing of what was there (clear, full overwrite)
+    bool discard = false;  // a write that needs nothing of what was there (clear, full overwrite)
 };
 
 struct PassDesc {
     std::string name;
     std::vector<Use> uses;
-    bool keep = false;               // has effects the graph cannot see
+    bool keep = false;  // has effects the graph cannot see
 };
 
 struct Recording {
@@ -85,14 +88,14 @@ struct Plan {
         uint32_t pass = 0;
         std::vector<Barrier> barriers;
     };
-    std::vector<Step> steps;            // in declaration order, culled passes left out
-    std::vector<Barrier> closing;       // after the last pass: imported images into their final layout
-    std::vector<int> slotOf;            // by resource; -1 for those that are not transient and those of culled passes
+    std::vector<Step> steps;       // in declaration order, culled passes left out
+    std::vector<Barrier> closing;  // after the last pass: imported images into their final layout
+    std::vector<int> slotOf;       // by resource; -1 for those that are not transient and those of culled passes
     std::vector<Slot> slots;
-    std::vector<Placement> placements;  // by resource, of uploads
-    std::vector<uint64_t> chunks;       // bytes of each piece of upload memory
+    std::vector<Placement> placements;            // by resource, of uploads
+    std::vector<uint64_t> chunks;                 // bytes of each piece of upload memory
     std::vector<std::vector<State>> finalStates;  // by resource, of those that are not transient
-    std::vector<std::string> problems;  // reads of what nobody wrote; each names the pass and the image
+    std::vector<std::string> problems;            // reads of what nobody wrote; each names the pass and the image
 
     std::string text(const Recording& recording) const;
     std::string dot(const Recording& recording) const;
@@ -101,7 +104,8 @@ struct Plan {
 // What the frame finds: the pool, in the states in which the previous frame left it, and the sizes of its pieces of upload memory.
 Plan plan(const Recording& recording, std::vector<Slot> slots = {}, std::vector<uint64_t> chunks = {});
 
-constexpr VkBufferUsageFlags kUploadUsage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags kUploadUsage =
+    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 constexpr VkBufferUsageFlags kPoolBufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 

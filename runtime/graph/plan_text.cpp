@@ -6,18 +6,19 @@
 namespace obscura::graph {
 namespace {
 
-struct Bit { uint64_t bit; const char* name; };
+struct Bit {
+    uint64_t bit;
+    const char* name;
+};
 
-constexpr Bit kStages[] = {
-    {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, "compute"}, {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, "vertex"},
+constexpr Bit kStages[] = {{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, "compute"}, {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, "vertex"},
     {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, "fragment"}, {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, "color"},
     {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, "early"}, {VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, "late"},
     {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, "transfer"}, {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, "attributes"},
     {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, "indices"}, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, "all"},
     {VK_PIPELINE_STAGE_2_BOTTOM_OF_PIPE_BIT, "end"}, {VK_PIPELINE_STAGE_2_HOST_BIT, "host"}};
 
-constexpr Bit kAccesses[] = {
-    {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, "sample"}, {VK_ACCESS_2_SHADER_STORAGE_READ_BIT, "read"},
+constexpr Bit kAccesses[] = {{VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, "sample"}, {VK_ACCESS_2_SHADER_STORAGE_READ_BIT, "read"},
     {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, "write"}, {VK_ACCESS_2_UNIFORM_READ_BIT, "uniform"},
     {VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT, "blend"}, {VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, "draw"},
     {VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, "test"}, {VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, "depthWrite"},
@@ -61,7 +62,7 @@ std::string line(const Recording& recording, const Barrier& barrier) {
     const std::string layouts =
         resource.isBuffer || barrier.from == barrier.to ? "" : fmt::format(" {}>{}", layoutName(barrier.from), layoutName(barrier.to));
     return fmt::format("  {}: {}({}) > {}({}){}\n", what, bits(barrier.srcStages, kStages), bits(barrier.srcAccess, kAccesses),
-                       bits(barrier.dstStages, kStages), bits(barrier.dstAccess, kAccesses), layouts);
+        bits(barrier.dstStages, kStages), bits(barrier.dstAccess, kAccesses), layouts);
 }
 
 }  // namespace

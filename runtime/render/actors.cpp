@@ -15,7 +15,8 @@ scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix) {
     if (box.empty) return out;
     const glm::vec3 centre = glm::vec3(matrix * glm::vec4(box.centre(), 1.0f));
     const glm::vec3 half = 0.5f * (box.max - box.min);
-    const glm::vec3 reach = glm::abs(glm::vec3(matrix[0])) * half.x + glm::abs(glm::vec3(matrix[1])) * half.y + glm::abs(glm::vec3(matrix[2])) * half.z;
+    const glm::vec3 reach =
+        glm::abs(glm::vec3(matrix[0])) * half.x + glm::abs(glm::vec3(matrix[1])) * half.y + glm::abs(glm::vec3(matrix[2])) * half.z;
     out.add(centre - reach);
     out.add(centre + reach);
     return out;
@@ -36,7 +37,8 @@ scene::Bounds widened(scene::Bounds box, const glm::vec3& by) {
 // Bound of the displacement of morphed vertices: the weighted sum of the targets' largest displacements.
 glm::vec3 morphReach(const PrimitiveGpu& primitive, const std::vector<float>& weights) {
     glm::vec3 reach(0.0f);
-    for (size_t t = 0; t < primitive.targetReach.size() && t < weights.size(); ++t) reach += std::abs(weights[t]) * primitive.targetReach[t];
+    for (size_t t = 0; t < primitive.targetReach.size() && t < weights.size(); ++t)
+        reach += std::abs(weights[t]) * primitive.targetReach[t];
     return reach;
 }
 
@@ -194,7 +196,10 @@ void Actors::update(const scene::World& world, float time, bool cut, const FindM
         actor.fresh = false;
     }
     for (auto it = m_actors.begin(); it != m_actors.end();) {
-        if (it->second.seen) { ++it; continue; }
+        if (it->second.seen) {
+            ++it;
+            continue;
+        }
         release(it->second);
         it = m_actors.erase(it);
     }

@@ -35,8 +35,10 @@ public:
     uint32_t capacity() const { return m_capacity; }
 
 private:
-    struct Free { uint32_t first, count; };
-    std::vector<Free> m_free;       // sorted, never adjacent
+    struct Free {
+        uint32_t first, count;
+    };
+    std::vector<Free> m_free;  // sorted, never adjacent
     uint32_t m_capacity = 0;
 };
 
@@ -49,7 +51,10 @@ public:
     std::span<const Drawable> drawables() const { return m_drawables; }
 
     // Primitives to deform this frame, for scene/deform.comp.
-    struct Job { shared::DeformJob job; const ModelGpu* model; };
+    struct Job {
+        shared::DeformJob job;
+        const ModelGpu* model;
+    };
     std::span<const Job> jobs() const { return m_jobs; }
     std::span<const glm::vec4> joints() const { return m_joints; }  // three rows per matrix
     std::span<const shared::ActiveWeight> weights() const { return m_weights; }

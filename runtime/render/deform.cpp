@@ -24,16 +24,18 @@ Status Deform::grow(graph::Graph& graph, uint32_t vertices) {
     const uint32_t bytes[3] = {kPositionBytes, kPositionBytes, kFrameBytes};
     static constexpr const char* kNames[3] = {"posed 0", "posed 1", "posed frames"};
     for (int i = 0; i < 3; ++i) {
-        const Status status = gpu::Buffer::create(*m_device, uint64_t(vertices) * bytes[i], kUsage, gpu::Memory::device, kNames[i], *fresh[i]);
+        const Status status =
+            gpu::Buffer::create(*m_device, uint64_t(vertices) * bytes[i], kUsage, gpu::Memory::device, kNames[i], *fresh[i]);
         if (status != Status::ok) return status;
         m_ids[i] = graph.import(kNames[i], *fresh[i], graph::Graph::Shared::written);
         if (!old[i]) continue;
         const graph::BufferId from = graph.import("outgrown", old[i], graph::Graph::Shared::written);
         const VkBuffer source = old[i].handle(), target = fresh[i]->handle();
         const VkBufferCopy copy{0, 0, old[i].bytes()};
-        graph.pass("deform.grow").use(from, Access::transferRead).use(m_ids[i], Access::transferWrite).record([=](const graph::PassContext& c) {
-            c.device.vk().CmdCopyBuffer(c.cmd, source, target, 1, &copy);
-        });
+        graph.pass("deform.grow")
+            .use(from, Access::transferRead)
+            .use(m_ids[i], Access::transferWrite)
+            .record([=](const graph::PassContext& c) { c.device.vk().CmdCopyBuffer(c.cmd, source, target, 1, &copy); });
     }
     m_capacity = vertices;
     return Status::ok;  // `old` is destroyed here; the device defers this until the GPU has finished the frame
@@ -69,8 +71,8 @@ Deform::Posed Deform::add(graph::Graph& graph, const Actors& actors) {
             const ModelGpu* bound = nullptr;
             for (const Actors::Job& job : actors.jobs()) {
                 if (job.model != bound) {
-                    const VkDescriptorSet set = m_rest.of(*m_device, m_program.setLayout(1), *job.model,
-                                                           {&job.model->rest, &job.model->influences, &job.model->targets});
+                    const VkDescriptorSet set = m_rest.of(
+                        *m_device, m_program.setLayout(1), *job.model, {&job.model->rest, &job.model->influences, &job.model->targets});
                     if (set == VK_NULL_HANDLE) continue;
                     c.device.vk().CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c.program->layout(), 1, 1, &set, 0, nullptr);
                     bound = job.model;

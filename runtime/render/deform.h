@@ -27,9 +27,9 @@ private:
     gpu::Device* m_device = nullptr;
     gpu::Program m_program;
     gpu::Buffer m_positions[2], m_frames;
-    uint32_t m_capacity = 0;    // vertices
+    uint32_t m_capacity = 0;  // vertices
     uint32_t m_current = 0;
-    graph::BufferId m_ids[3];   // this frame's: positions 0 and 1, frames
+    graph::BufferId m_ids[3];  // this frame's: positions 0 and 1, frames
     ModelSets m_rest;
 };
 

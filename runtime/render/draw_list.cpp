@@ -65,7 +65,11 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
     const Frustum frustum(camera.projection * camera.view);
     const glm::mat4 previousClip = camera.previousProjection * camera.previousView;
 
-    struct Entry { const Drawable* drawable; float distance; int octave; };
+    struct Entry {
+        const Drawable* drawable;
+        float distance;
+        int octave;
+    };
     std::vector<Entry> groups[3];
     for (const Drawable& drawable : drawables) {
         const size_t triangles = drawable.primitive->indexCount / 3;
@@ -80,11 +84,12 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
         groups[size_t(mode)].push_back({&drawable, distance, int(2.0f * std::log2(std::max(distance, 0.05f)))});
     }
     const auto key = [](const Entry& e) {
-        return std::make_tuple(e.octave, e.drawable->model->serial, e.drawable->primitive->materialIndex, e.drawable->primitive->serial,
-                               e.drawable->flipped);
+        return std::make_tuple(
+            e.octave, e.drawable->model->serial, e.drawable->primitive->materialIndex, e.drawable->primitive->serial, e.drawable->flipped);
     };
     for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask})
-        std::stable_sort(groups[size_t(mode)].begin(), groups[size_t(mode)].end(), [&](const Entry& a, const Entry& b) { return key(a) < key(b); });
+        std::stable_sort(
+            groups[size_t(mode)].begin(), groups[size_t(mode)].end(), [&](const Entry& a, const Entry& b) { return key(a) < key(b); });
     std::stable_sort(groups[size_t(AlphaMode::blend)].begin(), groups[size_t(AlphaMode::blend)].end(), [&](const Entry& a, const Entry& b) {
         return glm::length(a.drawable->bounds.centre() - camera.eye) > glm::length(b.drawable->bounds.centre() - camera.eye);
     });
@@ -98,7 +103,8 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
             if (!out[mode]->empty()) {
                 Draw& last = out[mode]->back();
                 const Drawable& before = *last.first;
-                if (before.posed == kNotPosed && drawable.posed == kNotPosed && before.primitive == drawable.primitive && before.flipped == drawable.flipped) {
+                if (before.posed == kNotPosed && drawable.posed == kNotPosed && before.primitive == drawable.primitive &&
+                    before.flipped == drawable.flipped) {
                     ++last.count;
                     continue;
                 }
@@ -107,12 +113,12 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
         }
     }
     std::copy_if(list.opaque.begin(), list.opaque.end(), std::back_inserter(list.textured),
-                 [](const Draw& draw) { return mapsOf(*draw.first->primitive->material) != 0; });
+        [](const Draw& draw) { return mapsOf(*draw.first->primitive->material) != 0; });
     return list;
 }
 
 void recordDraws(VkCommandBuffer cmd, const gpu::Api& vk, std::span<const Draw> draws, const PosedBuffers& posed, uint32_t streams,
-                 bool cullBackFaces, const BindMaterial& bindMaterial) {
+    bool cullBackFaces, const BindMaterial& bindMaterial) {
     const ModelGpu* model = nullptr;
     uint32_t material = ~0u;
     VkCullModeFlags cull = VK_CULL_MODE_FLAG_BITS_MAX_ENUM;

@@ -48,11 +48,13 @@ DrawList buildDraws(std::span<const Drawable> drawables, const CameraPair& camer
 
 // Records draws; pipeline and descriptor set 0 must be bound. `posed`: positions of this and last frame, tangent frames. `streams`: the
 // pipeline's vertex bindings, as Streams.
-struct PosedBuffers { VkBuffer now = VK_NULL_HANDLE, before = VK_NULL_HANDLE, frames = VK_NULL_HANDLE; };
+struct PosedBuffers {
+    VkBuffer now = VK_NULL_HANDLE, before = VK_NULL_HANDLE, frames = VK_NULL_HANDLE;
+};
 enum Streams : uint32_t { kPosition = 1, kPrevious = 2, kFrame = 4, kCoords = 8 };
 using BindMaterial = std::function<void(const ModelGpu& model, uint32_t material)>;
 void recordDraws(VkCommandBuffer cmd, const gpu::Api& vk, std::span<const Draw> draws, const PosedBuffers& posed, uint32_t streams,
-                 bool cullBackFaces, const BindMaterial& bindMaterial);
+    bool cullBackFaces, const BindMaterial& bindMaterial);
 
 // A row of a matrix, for the 3x4 matrices of shaders.
 shared::vec4 rowOf(const glm::mat4& matrix, int row);

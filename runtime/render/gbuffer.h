@@ -26,7 +26,7 @@ public:
     gpu::Status prepare(const scene::Material& material) { return m_surface.prepare(material); }
     // `list` must stay valid until the graph has been executed. `frame`: SceneFrame, `items`: DrawItem.
     GBuffer add(graph::Graph& graph, VkExtent2D size, graph::BufferId frame, graph::BufferId items, const DrawList& list,
-                const Deform::Posed& posed, Materials& materials);
+        const Deform::Posed& posed, Materials& materials);
 
 private:
     gpu::Program m_depth;

@@ -9,7 +9,9 @@ using gpu::Status;
 
 constexpr VkFormat kHit = VK_FORMAT_R32_UINT, kDepth = VK_FORMAT_D32_SFLOAT;
 
-struct ResolveConstants { uint32_t hits, secondLayer; };  // of resolve.comp
+struct ResolveConstants {
+    uint32_t hits, secondLayer;
+};  // of resolve.comp
 
 }  // namespace
 
@@ -34,15 +36,17 @@ LayerForm FormTrial::next(const graph::Timings& arrived) {
 }
 
 Status LayersPass::createPair(gpu::Device& device, const gpu::ShaderLibrary& shaders, const std::string& fragment, gpu::GraphicsState state,
-                               std::initializer_list<gpu::Constant> constants, Pair& out) {
+    std::initializer_list<gpu::Constant> constants, Pair& out) {
     state.vertexBindings = {{0, kPositionBytes, VK_VERTEX_INPUT_RATE_VERTEX}};
     state.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
-    const Status status = gpu::Program::graphics(device, shaders, "scene/layers/place.vert", "scene/layers/" + fragment + ".frag", state, constants, out.solid);
+    const Status status = gpu::Program::graphics(
+        device, shaders, "scene/layers/place.vert", "scene/layers/" + fragment + ".frag", state, constants, out.solid);
     if (status != Status::ok) return status;
     state.vertexBindings.push_back({1, kCoordsBytes, VK_VERTEX_INPUT_RATE_VERTEX});
     state.vertexAttributes.push_back({1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
     state.vertexAttributes.push_back({2, 1, VK_FORMAT_R16G16B16A16_SFLOAT, 16});
-    return gpu::Program::graphics(device, shaders, "scene/layers/place_masked.vert", "scene/layers/" + fragment + "_masked.frag", state, constants, out.masked);
+    return gpu::Program::graphics(
+        device, shaders, "scene/layers/place_masked.vert", "scene/layers/" + fragment + "_masked.frag", state, constants, out.masked);
 }
 
 Status LayersPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayersPass& out) {
@@ -51,7 +55,8 @@ Status LayersPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
     peel.depthFormat = kDepth;
     peel.depthTest = peel.depthWrite = true;
     Status status = createPair(device, shaders, "peel", peel, {}, out.m_peel);
-    for (uint32_t first = 0; first < 2 && status == Status::ok; ++first) status = createPair(device, shaders, "peel_on", peel, {{0, first}}, out.m_peelOn[first]);
+    for (uint32_t first = 0; first < 2 && status == Status::ok; ++first)
+        status = createPair(device, shaders, "peel_on", peel, {{0, first}}, out.m_peelOn[first]);
     out.m_canWrite = device.caps().fragmentWrites;
     if (status == Status::ok && out.m_canWrite) {
         gpu::GraphicsState ladder;
@@ -79,7 +84,7 @@ void LayersPass::draw(graph::Pass& pass, Pair& programs, const DrawList& list, c
 }
 
 ao::LayerInputs LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::BufferId frame, graph::BufferId items, const DrawList& list,
-                                 const Deform::Posed& posed, Materials& materials, ao::LayerMode use, LayerForm form) {
+    const Deform::Posed& posed, Materials& materials, ao::LayerMode use, LayerForm form) {
     const uint32_t width = graph.desc(g.depth).width, height = graph.desc(g.depth).height;
     const bool second = use != ao::LayerMode::first, half = use == ao::LayerMode::secondHalf;
     if (form == LayerForm::best && second && m_canWrite) {
@@ -94,14 +99,18 @@ ao::LayerInputs LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::Bu
     graph::ImageId hits[3];
     if (ladder) {
         for (int i = 0; i < 3; ++i) hits[i] = graph.image(names[i], {kHit, width, height});
-        graph.pass("layers.clear").use(hits[0], graph::Access::transferWrite, true).use(hits[1], graph::Access::transferWrite, true)
-            .use(hits[2], graph::Access::transferWrite, true).record([hits](const graph::PassContext& c) {
+        graph.pass("layers.clear")
+            .use(hits[0], graph::Access::transferWrite, true)
+            .use(hits[1], graph::Access::transferWrite, true)
+            .use(hits[2], graph::Access::transferWrite, true)
+            .record([hits](const graph::PassContext& c) {
                 const VkClearColorValue none{};
                 const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
                 for (const graph::ImageId hit : hits)
                     c.device.vk().CmdClearColorImage(c.cmd, c.image(hit), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &none, 1, &range);
             });
-        graph::Pass& pass = graph.pass("layers.ladder", m_ladder.solid).read(frame).read(items).write(hits[0]).write(hits[1]).write(hits[2]);
+        graph::Pass& pass =
+            graph.pass("layers.ladder", m_ladder.solid).read(frame).read(items).write(hits[0]).write(hits[1]).write(hits[2]);
         pass.depthTest(g.depth);
         draw(pass, m_ladder, list, posed, materials);
     } else {
@@ -121,11 +130,25 @@ ao::LayerInputs LayersPass::add(graph::Graph& graph, const GBuffer& g, graph::Bu
 
     ao::LayerInputs layers;
     layers.thickness = graph.image("layers.thickness", {VK_FORMAT_R16_SFLOAT, width, height});
-    const graph::ImageId behind = graph.image("layers.second", {VK_FORMAT_R32G32_SFLOAT, !second ? 1 : half ? (width + 1) / 2 : width,
-                                                                !second ? 1 : half ? (height + 1) / 2 : height});
+    const graph::ImageId behind = graph.image("layers.second", {VK_FORMAT_R32G32_SFLOAT,
+                                                                   !second ? 1
+                                                                   : half  ? (width + 1) / 2
+                                                                           : width,
+                                                                   !second ? 1
+                                                                   : half  ? (height + 1) / 2
+                                                                           : height});
     const ResolveConstants constants{second || ladder ? 3u : 1u, half ? 2u : second ? 1u : 0u};
-    graph.pass("layers.resolve", m_resolve).read(frame).read(g.depth).read(g.material).read(hits[0]).read(hits[1]).read(hits[2])
-        .write(layers.thickness).write(behind).constants(constants).dispatch(width, height);
+    graph.pass("layers.resolve", m_resolve)
+        .read(frame)
+        .read(g.depth)
+        .read(g.material)
+        .read(hits[0])
+        .read(hits[1])
+        .read(hits[2])
+        .write(layers.thickness)
+        .write(behind)
+        .constants(constants)
+        .dispatch(width, height);
     if (second) layers.second = behind;
     return layers;
 }

@@ -16,11 +16,11 @@ public:
     LayerForm chosen() const { return m_chosen; }   // best: undecided
 
 private:
-    static constexpr int kEach = 3, kMost = 24;     // timed frames of each form; after kMost frames without timestamps: the ladder
+    static constexpr int kEach = 3, kMost = 24;  // timed frames of each form; after kMost frames without timestamps: the ladder
     LayerForm m_chosen = LayerForm::best;
     uint64_t m_seen = 0;
-    int m_declared = 0, m_timed[2] = {};            // by form: peeling, ladder
-    double m_least[2] = {1e30, 1e30};               // ms
+    int m_declared = 0, m_timed[2] = {};  // by form: peeling, ladder
+    double m_least[2] = {1e30, 1e30};     // ms
 };
 
 class LayersPass {
@@ -32,12 +32,14 @@ public:
     // of FormTrial. Without fragment writes the ladder is replaced by peeling.
     // `list` must stay valid until the graph has been executed.
     ao::LayerInputs add(graph::Graph& graph, const GBuffer& gbuffer, graph::BufferId frame, graph::BufferId items, const DrawList& list,
-                         const Deform::Posed& posed, Materials& materials, ao::LayerMode use, LayerForm form);
+        const Deform::Posed& posed, Materials& materials, ao::LayerMode use, LayerForm form);
 
 private:
-    struct Pair { gpu::Program solid, masked; };
-    static gpu::Status createPair(gpu::Device& device, const gpu::ShaderLibrary& shaders, const std::string& fragment, gpu::GraphicsState state,
-                                  std::initializer_list<gpu::Constant> constants, Pair& out);
+    struct Pair {
+        gpu::Program solid, masked;
+    };
+    static gpu::Status createPair(gpu::Device& device, const gpu::ShaderLibrary& shaders, const std::string& fragment,
+        gpu::GraphicsState state, std::initializer_list<gpu::Constant> constants, Pair& out);
     void draw(graph::Pass& pass, Pair& programs, const DrawList& list, const Deform::Posed& posed, Materials& materials);
 
     bool m_canWrite = false;

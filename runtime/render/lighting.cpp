@@ -50,21 +50,35 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
     // As large as the depth buffer, which blended surfaces are tested against; lit in the visible part only.
     const graph::ImageId lit = graph.image("lit", {kLit, view.size.x, view.size.y});
     const GBuffer& g = in.gbuffer;
-    graph.pass("lighting", m_light).read(light).read(g.depth).read(g.geometric).read(g.shaded).read(g.baseColor).read(g.material).read(g.emission)
-        .read(in.visibility).read(in.shadow.image, Sampling::shadow).write(lit).dispatch(view.visible.x, view.visible.y);
+    graph.pass("lighting", m_light)
+        .read(light)
+        .read(g.depth)
+        .read(g.geometric)
+        .read(g.shaded)
+        .read(g.baseColor)
+        .read(g.material)
+        .read(g.emission)
+        .read(in.visibility)
+        .read(in.shadow.image, Sampling::shadow)
+        .write(lit)
+        .dispatch(view.visible.x, view.visible.y);
 
     if (!in.draws->blended.empty()) {
-        graph::Pass& pass = graph.pass("blend", m_blend.base()).read(in.frame).read(in.items).read(light).read(in.shadow.image, Sampling::shadow);
+        graph::Pass& pass =
+            graph.pass("blend", m_blend.base()).read(in.frame).read(in.items).read(light).read(in.shadow.image, Sampling::shadow);
         if (in.posed.now)
-            pass.use(in.posed.now, graph::Access::vertex).use(in.posed.before, graph::Access::vertex).use(in.posed.frames, graph::Access::vertex);
+            pass.use(in.posed.now, graph::Access::vertex)
+                .use(in.posed.before, graph::Access::vertex)
+                .use(in.posed.frames, graph::Access::vertex);
         const VkRect2D visible{{int32_t(view.guard.x), int32_t(view.guard.y)}, {view.visible.x, view.visible.y}};
-        pass.color(lit).depthTest(g.depth).record([this, visible, &materials, draws = in.draws, posed = in.posed](const graph::PassContext& c) {
-            const gpu::Api& vk = c.device.vk();
-            vk.CmdSetScissor(c.cmd, 0, 1, &visible);
-            VkPipeline bound = c.program->pipeline();
-            recordDraws(c.cmd, vk, draws->blended, posed.buffers, kPosition | kPrevious | kFrame | kCoords, true,
-                        [&](const ModelGpu& model, uint32_t material) { m_blend.bind(c.cmd, model, material, materials, bound); });
-        });
+        pass.color(lit).depthTest(g.depth).record(
+            [this, visible, &materials, draws = in.draws, posed = in.posed](const graph::PassContext& c) {
+                const gpu::Api& vk = c.device.vk();
+                vk.CmdSetScissor(c.cmd, 0, 1, &visible);
+                VkPipeline bound = c.program->pipeline();
+                recordDraws(c.cmd, vk, draws->blended, posed.buffers, kPosition | kPrevious | kFrame | kCoords, true,
+                    [&](const ModelGpu& model, uint32_t material) { m_blend.bind(c.cmd, model, material, materials, bound); });
+            });
     }
 
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, view.visible.x, view.visible.y});

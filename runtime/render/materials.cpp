@@ -29,7 +29,7 @@ std::vector<gpu::Binding> materialBindings(const gpu::Program& program) {
 
 bool same(const std::vector<gpu::Binding>& a, const std::vector<gpu::Binding>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const gpu::Binding& x, const gpu::Binding& y) { return x.binding == y.binding && x.kind == y.kind; });
+        [](const gpu::Binding& x, const gpu::Binding& y) { return x.binding == y.binding && x.kind == y.kind; });
 }
 
 }  // namespace
@@ -39,7 +39,9 @@ Status Materials::create(gpu::Device& device, Materials& out) {
     const gpu::ImageDesc desc{VK_FORMAT_R8G8B8A8_UNORM, 1, 1, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
     const Status status = gpu::Image::create(device, desc, "white", out.m_white);
     const uint32_t white = ~0u;
-    return status == Status::ok ? gpu::upload(device, out.m_white, std::as_bytes(std::span(&white, 1)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) : status;
+    return status == Status::ok
+               ? gpu::upload(device, out.m_white, std::as_bytes(std::span(&white, 1)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL)
+               : status;
 }
 
 Materials::~Materials() {
@@ -48,7 +50,10 @@ Materials::~Materials() {
 
 void Materials::forget(const ModelGpu& model) {
     for (auto it = m_sets.begin(); it != m_sets.end();) {
-        if (it->first.first != &model) { ++it; continue; }
+        if (it->first.first != &model) {
+            ++it;
+            continue;
+        }
         m_device->release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, it->second.pool);
         it = m_sets.erase(it);
     }
@@ -79,7 +84,8 @@ VkDescriptorSet Materials::get(const ModelGpu& model, uint32_t material, const g
         sets.bindings = bindings;
         const uint32_t count = uint32_t(model.model->materials.size());
         sets.sets.assign(count, VK_NULL_HANDLE);
-        const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * kTextures}};
+        const VkDescriptorPoolSize sizes[] = {
+            {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * kTextures}};
         VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
         info.maxSets = count;
         info.poolSizeCount = 2;
@@ -101,7 +107,7 @@ VkDescriptorSet Materials::make(const ModelGpu& model, uint32_t material, const 
     }
     const scene::Material& source = model.model->materials[material];
     const scene::TextureUse* uses[kTextures] = {&source.baseColorTexture, &source.metallicRoughnessTexture, &source.normalTexture,
-                                                &source.emissionTexture, &source.occlusionTexture};
+        &source.emissionTexture, &source.occlusionTexture};
     const VkDescriptorBufferInfo block{model.materials.handle(), material * ModelGpu::kMaterialStride, sizeof(shared::MaterialBlock)};
     VkDescriptorImageInfo images[kTextures];
     for (uint32_t slot = 0; slot < kTextures; ++slot) {
@@ -126,7 +132,8 @@ VkDescriptorSet Materials::make(const ModelGpu& model, uint32_t material, const 
 }
 
 uint32_t mapsOf(const scene::Material& m) {
-    const scene::TextureUse* uses[kTextures] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture, &m.occlusionTexture};
+    const scene::TextureUse* uses[kTextures] = {
+        &m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture, &m.occlusionTexture};
     uint32_t bits = 0;
     for (uint32_t slot = 0; slot < kTextures; ++slot)
         if (uses[slot]->texture >= 0) bits |= 1u << slot;
@@ -134,7 +141,7 @@ uint32_t mapsOf(const scene::Material& m) {
 }
 
 Status MaterialProgram::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, std::string vertex, std::string fragment,
-                               gpu::GraphicsState state, MaterialProgram& out) {
+    gpu::GraphicsState state, MaterialProgram& out) {
     out.m_device = &device;
     out.m_shaders = &shaders;
     out.m_vertex = std::move(vertex);

@@ -43,7 +43,7 @@ uint32_t mapsOf(const scene::Material& material);
 class MaterialProgram {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, std::string vertex, std::string fragment,
-                              gpu::GraphicsState state, MaterialProgram& out);
+        gpu::GraphicsState state, MaterialProgram& out);
     // Creates the pipeline of a material ahead of its first draw.
     gpu::Status prepare(const scene::Material& material);
 

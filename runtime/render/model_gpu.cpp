@@ -29,11 +29,19 @@ struct Blob {
     }
 };
 
-struct Frame { uint64_t normal, tangent; };                    // vertex stream format: snorm16 x 4 each
-struct Coords { glm::vec2 uv0, uv1; uint64_t color; };
+struct Frame {
+    uint64_t normal, tangent;
+};  // vertex stream format: snorm16 x 4 each
+struct Coords {
+    glm::vec2 uv0, uv1;
+    uint64_t color;
+};
 static_assert(sizeof(Frame) == kFrameBytes && sizeof(Coords) == kCoordsBytes);
 
-struct Influence { std::array<uint16_t, 8> joints; std::array<float, 8> weights; };
+struct Influence {
+    std::array<uint16_t, 8> joints;
+    std::array<float, 8> weights;
+};
 static_assert(sizeof(Influence) == 48);
 
 std::vector<Frame> framesOf(const scene::Primitive& primitive) {
@@ -101,7 +109,7 @@ shared::MaterialBlock blockOf(const scene::Material& material) {
     block.factors = {material.metallic, material.roughness, material.normalScale, material.occlusionStrength};
     block.flags = {0, material.unlit ? 1u : 0u, 0, 0};
     const scene::TextureUse* uses[5] = {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-                                        &material.emissionTexture, &material.occlusionTexture};
+        &material.emissionTexture, &material.occlusionTexture};
     for (uint32_t slot = 0; slot < 5; ++slot) {
         const scene::TextureUse& use = *uses[slot];
         if (use.texCoord == 1) block.flags.x |= 1u << slot;
@@ -116,7 +124,8 @@ shared::MaterialBlock blockOf(const scene::Material& material) {
 Status fill(gpu::Device& device, const std::vector<std::byte>& bytes, VkBufferUsageFlags usage, const std::string& name, gpu::Buffer& out) {
     static constexpr std::byte kPlaceholder[16]{};  // descriptors need a buffer even without contents
     const std::span<const std::byte> content = bytes.empty() ? std::span<const std::byte>(kPlaceholder) : std::span(bytes);
-    const Status status = gpu::Buffer::create(device, content.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, name.c_str(), out);
+    const Status status =
+        gpu::Buffer::create(device, content.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, name.c_str(), out);
     return status == Status::ok ? gpu::upload(device, out, content) : status;
 }
 
@@ -124,7 +133,7 @@ Status addImages(gpu::Device& device, ModelGpu& out) {
     for (const scene::Image& image : out.model->images) {
         static const std::vector<uint8_t> kWhite(4, 255);
         const bool valid = image.width > 0 && image.height > 0 && image.rgba.size() == size_t(image.width) * image.height * 4 &&
-                          std::max(image.width, image.height) <= device.caps().maxImageSize;
+                           std::max(image.width, image.height) <= device.caps().maxImageSize;
         const uint32_t width = valid ? image.width : 1, height = valid ? image.height : 1;
         gpu::ImageDesc desc{image.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM, width, height};
         desc.mips = uint32_t(std::bit_width(std::max(width, height)));
@@ -132,7 +141,8 @@ Status addImages(gpu::Device& device, ModelGpu& out) {
         gpu::Image made;
         Status status = gpu::Image::create(device, desc, (out.model->name + "/" + image.name).c_str(), made);
         const std::vector<uint8_t>& texels = valid ? image.rgba : kWhite;
-        if (status == Status::ok) status = gpu::upload(device, made, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        if (status == Status::ok)
+            status = gpu::upload(device, made, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         if (status != Status::ok) return status;
         out.textureBytes += made.bytes();
         out.images.push_back(std::move(made));
@@ -194,7 +204,8 @@ Status ModelGpu::create(gpu::Device& device, std::shared_ptr<const scene::Model>
         return fill(device, blob.bytes, usage, model.name + "/" + what, buffer);
     };
     Status status = made(vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "vertices", out.vertices);
-    if (status == Status::ok) status = made(indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "indices", out.indices);
+    if (status == Status::ok)
+        status = made(indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "indices", out.indices);
     if (status == Status::ok) status = made(rest, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "rest", out.rest);
     if (status == Status::ok) status = made(influences, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "influences", out.influences);
     if (status == Status::ok) status = made(targets, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "targets", out.targets);

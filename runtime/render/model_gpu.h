@@ -23,15 +23,18 @@ struct PrimitiveGpu {
     VkDeviceSize positions = 0, frames = 0, coords = 0;  // byte offsets into `vertices`
     VkDeviceSize indices = 0;                            // byte offset into `indices`
     bool skinned = false, morphed = false;
-    scene::Bounds bounds;                                // of the rest positions its triangles use
-    uint32_t serial = 0;                                 // index among the model's chunks
-    uint32_t primitiveIndex = 0;                         // index of its primitive among the model's primitives
+    scene::Bounds bounds;         // of the rest positions its triangles use
+    uint32_t serial = 0;          // index among the model's chunks
+    uint32_t primitiveIndex = 0;  // index of its primitive among the model's primitives
 
     // Deformed primitives only, in the units of scene/deform.comp.
     uint32_t restPositions = 0, restFrames = 0, influences = ~0u, targets = 0;
-    struct JointBox { uint32_t joint; scene::Bounds box; };
-    std::vector<JointBox> jointBoxes;     // bounds of the rest positions that each joint influences
-    std::vector<glm::vec3> targetReach;   // largest displacement per axis, for each morph target
+    struct JointBox {
+        uint32_t joint;
+        scene::Bounds box;
+    };
+    std::vector<JointBox> jointBoxes;    // bounds of the rest positions that each joint influences
+    std::vector<glm::vec3> targetReach;  // largest displacement per axis, for each morph target
 
     bool deformed() const { return skinned || morphed; }
 };
@@ -43,11 +46,11 @@ public:
     std::shared_ptr<const scene::Model> model;
     std::vector<std::vector<PrimitiveGpu>> meshes;  // as Model::meshes: their primitives, in chunks
     gpu::Buffer vertices, indices;
-    gpu::Buffer rest, influences, targets;          // of deformed primitives; 16 unused bytes without
-    gpu::Buffer materials;                          // MaterialBlock every kMaterialStride bytes
-    std::vector<gpu::Image> images;                 // as Model::images
+    gpu::Buffer rest, influences, targets;  // of deformed primitives; 16 unused bytes without
+    gpu::Buffer materials;                  // MaterialBlock every kMaterialStride bytes
+    std::vector<gpu::Image> images;         // as Model::images
     uint64_t textureBytes = 0, geometryBytes = 0;
-    uint32_t serial = 0;                            // order of loading, for a deterministic sort
+    uint32_t serial = 0;  // order of loading, for a deterministic sort
 
     static constexpr VkDeviceSize kMaterialStride = 256;  // upper bound of minUniformBufferOffsetAlignment in Vulkan
 };

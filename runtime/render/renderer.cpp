@@ -23,7 +23,7 @@ struct Renderer::Impl {
     gpu::Device& device;
     const gpu::ShaderLibrary& shaders;
     ao::Library library;
-    std::unique_ptr<ao::Library> other;      // of B; null until used
+    std::unique_ptr<ao::Library> other;                               // of B; null until used
     std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;  // null: could not be uploaded, logged once
     uint32_t modelSerial = 0;
     Actors actors;
@@ -36,9 +36,9 @@ struct Renderer::Impl {
     Views views;
     VoxelVolume voxels;
 
-    DrawList draws;                          // of the frame being recorded
+    DrawList draws;  // of the frame being recorded
     std::optional<scene::Camera> lastCamera;
-    uint64_t frame = 0;                      // since the last cut
+    uint64_t frame = 0;  // since the last cut
     SceneFacts facts;
 
     const ModelGpu* find(const scene::Model* model) const {
@@ -48,7 +48,8 @@ struct Renderer::Impl {
     Status load(const scene::World& world);
     CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const;
     ao::Library& otherSide();
-    ao::Inputs obscurance(graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out);
+    ao::Inputs obscurance(
+        graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out);
     void count(const scene::World& world);
 };
 
@@ -56,7 +57,8 @@ namespace {
 
 VkExtent2D guardOf(const FrameOptions& options) {
     const float fraction = std::clamp(options.guard, 0.0f, 0.5f);
-    return {uint32_t(std::lround(fraction * float(options.visible.width))), uint32_t(std::lround(fraction * float(options.visible.height)))};
+    return {
+        uint32_t(std::lround(fraction * float(options.visible.width))), uint32_t(std::lround(fraction * float(options.visible.height)))};
 }
 
 ao::Frame frameOf(VkExtent2D size, VkExtent2D guard, const CameraPair& camera, uint64_t index) {
@@ -79,7 +81,7 @@ shared::SceneFrame sceneFrame(const CameraPair& camera, VkExtent2D size, VkExten
     const float w = float(size.width), h = float(size.height);
     frame.viewport = {w, h, 0.5f * w, 0.5f * h};
     frame.visibleQuads = {float(guard.width / 2), float(guard.height / 2), float((size.width - guard.width + 1) / 2),
-                          float((size.height - guard.height + 1) / 2)};
+        float((size.height - guard.height + 1) / 2)};
     frame.orthographic = {camera.orthographic ? 1.0f : 0.0f, 0, 0, 0};
     return frame;
 }
@@ -115,8 +117,11 @@ Status Renderer::load(const scene::World& world) { return m_impl->load(world); }
 Status Renderer::Impl::load(const scene::World& world) {
     for (auto it = models.begin(); it != models.end();) {
         const bool used = std::any_of(world.instances().begin(), world.instances().end(),
-                                      [&](const scene::Instance& instance) { return instance.model.get() == it->first; });
-        if (used) { ++it; continue; }
+            [&](const scene::Instance& instance) { return instance.model.get() == it->first; });
+        if (used) {
+            ++it;
+            continue;
+        }
         if (it->second) {
             materials.forget(*it->second);
             deform.forget(*it->second);
@@ -130,8 +135,8 @@ Status Renderer::Impl::load(const scene::World& world) {
         auto made = std::make_unique<ModelGpu>();
         const Status status = ModelGpu::create(device, instance.model, *made);
         if (status != Status::ok) {
-            device.log(gpu::Severity::error,
-                       "render: " + instance.model->name + " could not be uploaded and is not drawn: " + gpu::name(status));
+            device.log(
+                gpu::Severity::error, "render: " + instance.model->name + " could not be uploaded and is not drawn: " + gpu::name(status));
             models.emplace(instance.model.get(), nullptr);
             worst = status;
             continue;
@@ -166,7 +171,8 @@ ao::Library& Renderer::Impl::otherSide() {
 }
 
 // Each side prepares its own inputs and has its own history, so its passes take the time that they take without the other side.
-ao::Inputs Renderer::Impl::obscurance(graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out) {
+ao::Inputs Renderer::Impl::obscurance(
+    graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out) {
     const auto run = [&](ao::Library& of, const ao::Values& values) {
         ao::Library::Added added = of.add(graph, frame, sources, options.falloff, values);
         if (!added.visibility) added.visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has logged why
@@ -230,8 +236,9 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     ao::Sources sources{g.depth, g.geometric, g.motion};
     sources.packed = true;
     const bool showsLayers = options.view == View::thickness || options.view == View::second || options.view == View::secondThickness;
-    const ao::LayerMode use = std::max({ao::layerModeOf(*options.method), options.compare ? ao::layerModeOf(*options.compare) : ao::LayerMode::none,
-                                       showsLayers ? ao::LayerMode::second : ao::LayerMode::none});
+    const ao::LayerMode use =
+        std::max({ao::layerModeOf(*options.method), options.compare ? ao::layerModeOf(*options.compare) : ao::LayerMode::none,
+            showsLayers ? ao::LayerMode::second : ao::LayerMode::none});
     if (use != ao::LayerMode::none)
         sources.layers = impl.layers.add(graph, g, frame, items, impl.draws, posed, impl.materials, use, options.layerForm);
     const uint32_t needs = ao::needs(*options.method) | (options.compare ? ao::needs(*options.compare) : 0);
@@ -277,9 +284,11 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
         }
     }
     if (isVoxels(options.view) && sources.volume)
-        out.color = impl.views.voxels(graph, sources.volume, aoFrame.volume, options.view == View::voxelSlice ? &options.slice : nullptr, options.camera.eye, view);
+        out.color = impl.views.voxels(
+            graph, sources.volume, aoFrame.volume, options.view == View::voxelSlice ? &options.slice : nullptr, options.camera.eye, view);
     if (isDifference(options.view) && out.sides[1])
-        out.color = impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
+        out.color =
+            impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
     if (options.view == View::history || options.view == View::rejected) out.color = impl.views.addHistory(graph, options.view, view);
     if (!out.color) out.color = impl.views.add(graph, options.view, g, sources.layers, out.visibility, view);
     return out;

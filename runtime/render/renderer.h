@@ -16,17 +16,33 @@
 namespace obscura::render {
 
 enum class View : uint8_t {
-    final, visibility, normals, shadedNormals, depth, motion, baseColor, roughness, metalness, emission, thickness, second, secondThickness,
-    voxels, voxelSlice, difference, signedDifference,
-    history, rejected, pass
+    final,
+    visibility,
+    normals,
+    shadedNormals,
+    depth,
+    motion,
+    baseColor,
+    roughness,
+    metalness,
+    emission,
+    thickness,
+    second,
+    secondThickness,
+    voxels,
+    voxelSlice,
+    difference,
+    signedDifference,
+    history,
+    rejected,
+    pass
 };
 // "final", "visibility", ..., or "pass:NAME" (the first image that the graph's pass NAME writes); false if unknown.
 bool parseView(const std::string& text, View& view, std::string& pass);
 const char* name(View view);
 inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
-                                  View::baseColor, View::roughness, View::metalness, View::emission,
-                                  View::thickness, View::second, View::secondThickness, View::voxels, View::voxelSlice, View::difference, View::signedDifference,
-                                  View::history, View::rejected};
+    View::baseColor, View::roughness, View::metalness, View::emission, View::thickness, View::second, View::secondThickness, View::voxels,
+    View::voxelSlice, View::difference, View::signedDifference, View::history, View::rejected};
 // Views of the volume; the volume is then made even if no method needs it.
 constexpr bool isVoxels(View view) { return view == View::voxels || view == View::voxelSlice; }
 // Views of the difference of two methods' visibility; without a second method they show the first one's visibility.
@@ -54,30 +70,30 @@ struct VoxelSlice {
 enum class LayerForm : uint8_t { best, peeling, ladder };
 
 struct FrameOptions {
-    VkExtent2D visible{1280, 720};    // px
-    float guard = 0.1f;               // fraction of each side, 0 to 0.5
+    VkExtent2D visible{1280, 720};  // px
+    float guard = 0.1f;             // fraction of each side, 0 to 0.5
     scene::Camera camera;
-    float time = 0.0f;                // seconds, of the world's animations
+    float time = 0.0f;                   // seconds, of the world's animations
     const ao::Values* method = nullptr;  // method and parameters; never null
     ao::Falloff falloff;
     // Optional method B to compare with `method`, A: same frame and falloff, its own history. A is shown left of the divider, B right of
     // it; the names of their passes get the prefixes "A." and "B.".
     const ao::Values* compare = nullptr;
-    float split = 0.5f;               // position of the divider, fraction of the width
-    float differenceRange = 0.25f;    // difference of visibility at which the difference views saturate
+    float split = 0.5f;             // position of the divider, fraction of the width
+    float differenceRange = 0.25f;  // difference of visibility at which the difference views saturate
     View view = View::final;
-    std::string passView;             // for View::pass
-    uint32_t sampleStep = 0;          // px between samples of Outputs::samples; 0: none
+    std::string passView;     // for View::pass
+    uint32_t sampleStep = 0;  // px between samples of Outputs::samples; 0: none
     LayerForm layerForm = LayerForm::best;
-    Voxelization voxels;              // for methods that need a volume
+    Voxelization voxels;  // for methods that need a volume
     VoxelSlice slice;
     Sun sun;
     float exposure = 1.0f;
-    bool cut = false;                 // camera cut: history is discarded, motion is 0
-    bool skipMasked = false;          // do not draw alpha-masked primitives (as in stored references)
-    bool cull = true;                 // frustum culling, guard band included
-    uint32_t shadowSize = 2048;       // texels per side
-    float shadowReach = 40.0f;        // metres around the camera that have shadows, in larger worlds
+    bool cut = false;            // camera cut: history is discarded, motion is 0
+    bool skipMasked = false;     // do not draw alpha-masked primitives (as in stored references)
+    bool cull = true;            // frustum culling, guard band included
+    uint32_t shadowSize = 2048;  // texels per side
+    float shadowReach = 40.0f;   // metres around the camera that have shadows, in larger worlds
 };
 
 struct Outputs {
@@ -88,12 +104,12 @@ struct Outputs {
     // bits, packed normal, half floats of motion in px. R32G32B32A32_UINT, size / sampleStep. Only with `sampleStep`.
     graph::ImageId samples;
     // Guard band included:
-    graph::ImageId depth;           // D32, reversed infinite device depth
-    graph::ImageId linearDepth;     // R32F, -z in metres; sky: ao's sky value
-    graph::ImageId normals;         // R32UI, packNormal(): geometric, eye space
-    graph::ImageId motion;          // RG16F, px to last frame's position
-    graph::BufferId voxels;         // bits of the volume, shared/volume.h; only if the method reads it
-    ao::LayerInputs layers;        // R16F and RG32F, see obscura/ao.h; none unless the method reads them
+    graph::ImageId depth;        // D32, reversed infinite device depth
+    graph::ImageId linearDepth;  // R32F, -z in metres; sky: ao's sky value
+    graph::ImageId normals;      // R32UI, packNormal(): geometric, eye space
+    graph::ImageId motion;       // RG16F, px to last frame's position
+    graph::BufferId voxels;      // bits of the volume, shared/volume.h; only if the method reads it
+    ao::LayerInputs layers;      // R16F and RG32F, see obscura/ao.h; none unless the method reads them
 };
 
 struct SceneFacts {
@@ -115,8 +131,8 @@ public:
     Outputs add(graph::Graph& graph, const scene::World& world, const FrameOptions& options);
 
     ao::Library& library();
-    ao::Library& otherLibrary();  // of B; created at first use
-    SceneFacts facts() const;  // of the last add()
+    ao::Library& otherLibrary();          // of B; created at first use
+    SceneFacts facts() const;             // of the last add()
     const voxel::Voxels* voxels() const;  // null until a method has needed a volume
 
 private:

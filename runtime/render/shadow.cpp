@@ -29,7 +29,10 @@ scene::Bounds boundsAlong(const glm::mat4& axes, const scene::Bounds& box) {
 
 // The map's square and depth range in light space. Both change in steps: of whole texels, so that shadows of static objects do not crawl,
 // and of many texels, so that moving objects rarely change the map of settled ones.
-struct Fit { glm::vec2 centre; float side, low, high; };
+struct Fit {
+    glm::vec2 centre;
+    float side, low, high;
+};
 Fit fit(const scene::Bounds& world, const glm::vec3& around, float reach, uint32_t size) {
     const glm::vec3 extent = world.max - world.min;
     float side = std::max({extent.x, extent.y, 0.1f}) * 1.07f;  // a step of the centre and a border
@@ -42,7 +45,8 @@ Fit fit(const scene::Bounds& world, const glm::vec3& around, float reach, uint32
     }
     const float step = side / float(size) * float(std::max(size / 32, 1u));
     const float deep = side / 8.0f;
-    return {glm::round(centre / step) * step, side, std::floor(world.min.z / deep - 0.1f) * deep, std::ceil(world.max.z / deep + 0.1f) * deep};
+    return {
+        glm::round(centre / step) * step, side, std::floor(world.min.z / deep - 0.1f) * deep, std::ceil(world.max.z / deep + 0.1f) * deep};
 }
 
 struct Fingerprint {
@@ -83,8 +87,9 @@ void Shadow::collect(Layer& layer, std::vector<const Drawable*> casters, const g
         const uint32_t item = uint32_t(m_items.size());
         const glm::mat4 matrix = clip * caster->world;
         m_items.push_back({{rowOf(matrix, 0), rowOf(matrix, 1), rowOf(matrix, 2)}});
-        const bool again = !draws.empty() && draws.back().first->primitive == caster->primitive && draws.back().item + draws.back().count == item &&
-                           caster->posed == kNotPosed && draws.back().first->posed == kNotPosed;
+        const bool again = !draws.empty() && draws.back().first->primitive == caster->primitive &&
+                           draws.back().item + draws.back().count == item && caster->posed == kNotPosed &&
+                           draws.back().first->posed == kNotPosed;
         if (again) ++draws.back().count;
         else draws.push_back({caster, item, 1});
     }
@@ -100,8 +105,8 @@ graph::ImageId Shadow::import(graph::Graph& graph, const Layer& layer, const cha
     return graph.import(name, external);
 }
 
-void Shadow::draw(graph::Graph& graph, const char* name, Layer& layer, graph::ImageId target, std::optional<float> clear, graph::BufferId items,
-                  const Deform::Posed& posed, Materials& materials) {
+void Shadow::draw(graph::Graph& graph, const char* name, Layer& layer, graph::ImageId target, std::optional<float> clear,
+    graph::BufferId items, const Deform::Posed& posed, Materials& materials) {
     graph::Pass& pass = graph.pass(name, m_solid).read(items);
     if (posed.now) pass.use(posed.now, graph::Access::vertex);
     pass.depth(target, clear).record([this, &layer, posed, &materials](const graph::PassContext& c) {
@@ -122,8 +127,8 @@ Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const
         if (layer->image && layer->image.desc().width == request.size) continue;
         gpu::Image fresh;
         const gpu::ImageDesc desc{VK_FORMAT_D32_SFLOAT, request.size, request.size, 1, 1,
-                                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                                      VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                VK_IMAGE_USAGE_TRANSFER_DST_BIT};
         if (gpu::Image::create(*m_device, desc, "shadow map", fresh) != Status::ok) return {};
         layer->image = std::move(fresh);
         layer->drawn = 0;
@@ -186,11 +191,14 @@ Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const
     map.image = import(graph, m_moving, "shadow map");
     if (redrawMoving) {
         const uint32_t size = request.size;
-        graph.pass("shadow.copy").use(rest, graph::Access::transferRead).use(map.image, graph::Access::transferWrite, true)
+        graph.pass("shadow.copy")
+            .use(rest, graph::Access::transferRead)
+            .use(map.image, graph::Access::transferWrite, true)
             .record([rest, to = map.image, size](const graph::PassContext& c) {
                 const VkImageSubresourceLayers depth{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
                 const VkImageCopy region{depth, {}, depth, {}, {size, size, 1}};
-                c.device.vk().CmdCopyImage(c.cmd, c.image(rest), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(to), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+                c.device.vk().CmdCopyImage(c.cmd, c.image(rest), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(to),
+                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
             });
         draw(graph, "shadow", m_moving, map.image, std::nullopt, items, posed, materials);
     }

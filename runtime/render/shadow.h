@@ -9,10 +9,10 @@ namespace obscura::render {
 
 struct ShadowRequest {
     std::span<const Drawable> casters;
-    glm::vec3 toSun{0.0f, 1.0f, 0.0f};   // unit, world
+    glm::vec3 toSun{0.0f, 1.0f, 0.0f};  // unit, world
     glm::vec3 eye{0.0f}, forward{0.0f, 0.0f, -1.0f};
-    uint32_t size = 2048;                // texels per side
-    float reach = 40.0f;                 // metres around the camera that have shadows, in larger worlds
+    uint32_t size = 2048;  // texels per side
+    float reach = 40.0f;   // metres around the camera that have shadows, in larger worlds
     bool skipMasked = false;
 };
 
@@ -38,7 +38,7 @@ private:
     void collect(Layer& layer, std::vector<const Drawable*> casters, const glm::mat4& clip);
     graph::ImageId import(graph::Graph& graph, const Layer& layer, const char* name);
     void draw(graph::Graph& graph, const char* name, Layer& layer, graph::ImageId target, std::optional<float> clear, graph::BufferId items,
-              const Deform::Posed& posed, Materials& materials);
+        const Deform::Posed& posed, Materials& materials);
 
     gpu::Device* m_device = nullptr;
     gpu::Program m_solid, m_masked;

@@ -8,9 +8,9 @@
 namespace obscura::render {
 namespace {
 
-constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion",
-                                  "base-color", "roughness", "metalness", "emission", "thickness", "second", "second-thickness",
-                                  "voxels", "voxel-slice", "difference", "signed-difference", "history", "rejected", "pass"};
+constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion", "base-color", "roughness",
+    "metalness", "emission", "thickness", "second", "second-thickness", "voxels", "voxel-slice", "difference", "signed-difference",
+    "history", "rejected", "pass"};
 
 // The display mode of a pass's image, from its format and name.
 uint32_t modeOf(VkFormat format, const std::string& name) {
@@ -79,12 +79,18 @@ graph::ImageId Views::show(graph::Graph& graph, graph::ImageId source, uint32_t 
         block.scale = {float(desc.width) / float(frame.visible.x), float(desc.height) / float(frame.visible.y)};
     }
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
-    const bool integer = mode == shared::kViewNormal || mode == shared::kViewInteger || mode == shared::kViewHistory || mode == shared::kViewRejected;
-    graph.pass("view", integer ? m_uint : m_float).readMip(source, 0).write(picture).constants(block).dispatch(frame.visible.x, frame.visible.y);
+    const bool integer =
+        mode == shared::kViewNormal || mode == shared::kViewInteger || mode == shared::kViewHistory || mode == shared::kViewRejected;
+    graph.pass("view", integer ? m_uint : m_float)
+        .readMip(source, 0)
+        .write(picture)
+        .constants(block)
+        .dispatch(frame.visible.x, frame.visible.y);
     return picture;
 }
 
-graph::ImageId Views::add(graph::Graph& graph, View view, const GBuffer& g, const ao::LayerInputs& layers, graph::ImageId visibility, const shared::View& frame) {
+graph::ImageId Views::add(
+    graph::Graph& graph, View view, const GBuffer& g, const ao::LayerInputs& layers, graph::ImageId visibility, const shared::View& frame) {
     switch (view) {
         case View::normals: return show(graph, g.geometric, shared::kViewNormal, frame);
         case View::shadedNormals: return show(graph, g.shaded, shared::kViewNormal, frame);
@@ -127,16 +133,27 @@ graph::ImageId Views::difference(graph::Graph& graph, graph::ImageId a, graph::I
 graph::ImageId Views::samples(graph::Graph& graph, const Outputs& outputs, uint32_t step, const shared::View& frame) {
     const shared::SamplesBlock block{{frame.visible.x / step, frame.visible.y / step}, frame.guard, step, {}};
     const graph::ImageId samples = graph.image("samples", {VK_FORMAT_R32G32B32A32_UINT, block.count.x, block.count.y});
-    graph.pass("samples", m_samples).read(outputs.sides[0]).read(outputs.sides[outputs.sides[1] ? 1 : 0]).read(outputs.linearDepth).read(outputs.normals)
-        .read(outputs.motion).write(samples).constants(block).dispatch(block.count.x, block.count.y);
+    graph.pass("samples", m_samples)
+        .read(outputs.sides[0])
+        .read(outputs.sides[outputs.sides[1] ? 1 : 0])
+        .read(outputs.linearDepth)
+        .read(outputs.normals)
+        .read(outputs.motion)
+        .write(samples)
+        .constants(block)
+        .dispatch(block.count.x, block.count.y);
     return samples;
 }
 
-graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao::Volume& volume, const VoxelSlice* slice, const glm::vec3& eye, const shared::View& frame) {
+graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao::Volume& volume, const VoxelSlice* slice,
+    const glm::vec3& eye, const shared::View& frame) {
     shared::Volume block;
     const char* reason = nullptr;
     if (ao::volumeOf(volume, block, reason) != ao::Status::ok) return {};
-    struct { int32_t axis; float layer, shown; } constants{-1, 0.0f, float(volume.cells)};
+    struct {
+        int32_t axis;
+        float layer, shown;
+    } constants{-1, 0.0f, float(volume.cells)};
     if (slice) {
         constants.axis = std::clamp(slice->axis, 0, 2);
         const int axis = constants.axis;
@@ -148,8 +165,13 @@ graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao
     const char* shader = tree ? "voxel/view_nanovdb.comp" : "voxel/view.comp";
     if (!program && gpu::Program::compute(graph.device(), *m_shaders, shader, {}, program) != gpu::Status::ok) return {};
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
-    graph.pass("voxels.view", program).read(graph.upload("view", frame)).read(graph.upload("volume", block)).read(bits)
-        .write(picture).constants(constants).dispatch(frame.visible.x, frame.visible.y);
+    graph.pass("voxels.view", program)
+        .read(graph.upload("view", frame))
+        .read(graph.upload("volume", block))
+        .read(bits)
+        .write(picture)
+        .constants(constants)
+        .dispatch(frame.visible.x, frame.visible.y);
     return picture;
 }
 

@@ -13,7 +13,8 @@ public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Views& out);
     // Any of kViews but final. Normals: n/2 + 1/2. Depth: logarithmic, near is bright. Motion: grey at 0. Visibility, roughness, metalness:
     // byte = 255 * value. Colours: sRGB-encoded. Thickness: logarithmic, 1 mm black, 10 m white, open sheets blue, endless and sky red.
-    graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, const ao::LayerInputs& layers, graph::ImageId visibility, const shared::View& frame);
+    graph::ImageId add(graph::Graph& graph, View view, const GBuffer& gbuffer, const ao::LayerInputs& layers, graph::ImageId visibility,
+        const shared::View& frame);
     // The first image that the pass of that name writes; none if there is no such pass or the image cannot be shown.
     graph::ImageId addPass(graph::Graph& graph, const std::string& pass, const shared::View& frame);
     // History of the temporal pass. View::history: accumulated frames per pixel, logarithmic, white at 63. View::rejected: white where
@@ -26,7 +27,8 @@ public:
     // Outputs::samples, from the other images of `outputs`.
     graph::ImageId samples(graph::Graph& graph, const Outputs& outputs, uint32_t step, const shared::View& frame);
     // The volume's cells seen from the camera, or, with `slice`, a map of one layer of cells. `eye`: camera position, world space.
-    graph::ImageId voxels(graph::Graph& graph, graph::BufferId bits, const ao::Volume& volume, const VoxelSlice* slice, const glm::vec3& eye, const shared::View& frame);
+    graph::ImageId voxels(graph::Graph& graph, graph::BufferId bits, const ao::Volume& volume, const VoxelSlice* slice,
+        const glm::vec3& eye, const shared::View& frame);
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);

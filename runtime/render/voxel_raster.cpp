@@ -32,15 +32,18 @@ bool VoxelRaster::bindable(const ModelGpu& model) {
     const uint64_t most = m_device->caps().maxStorageRange;
     if (model.vertices.bytes() <= most && model.indices.bytes() <= most) return true;
     if (m_logged != &model)
-        m_device->log(gpu::Severity::warning, "voxels: " + model.model->name +
-                                                  " exceeds this device's maxStorageBufferRange and is skipped; use the voxelizer openvdb");
+        m_device->log(gpu::Severity::warning,
+            "voxels: " + model.model->name + " exceeds this device's maxStorageBufferRange and is skipped; use the voxelizer openvdb");
     m_logged = &model;
     return false;
 }
 
-graph::BufferId VoxelRaster::add(graph::Graph& graph, std::span<const Drawable> drawables, const Deform::Posed& posed, const voxel::Change& where, bool masked,
-                                 voxel::Shell shell) {
-    struct Draw { const ModelGpu* model; shared::VoxelJob job; };
+graph::BufferId VoxelRaster::add(graph::Graph& graph, std::span<const Drawable> drawables, const Deform::Posed& posed,
+    const voxel::Change& where, bool masked, voxel::Shell shell) {
+    struct Draw {
+        const ModelGpu* model;
+        shared::VoxelJob job;
+    };
     std::vector<Draw> draws;
     const uint32_t mask = where.cells - 1;
     for (const Drawable& drawable : drawables) {
@@ -64,19 +67,23 @@ graph::BufferId VoxelRaster::add(graph::Graph& graph, std::span<const Drawable> 
         c.device.vk().CmdFillBuffer(c.cmd, buffer.buffer, buffer.offset, buffer.bytes, 0);
     });
     const graph::BufferId positions = posed.now ? posed.now : graph.upload("nothing posed", glm::vec4(0.0f));
-    graph.pass("voxels.rasterise", m_program).read(positions).write(bits).record([this, draws = std::move(draws)](const graph::PassContext& c) {
-        const ModelGpu* bound = nullptr;
-        for (const Draw& draw : draws) {
-            if (draw.model != bound) {
-                const VkDescriptorSet set = m_sets.of(*m_device, c.program->setLayout(1), *draw.model, {&draw.model->vertices, &draw.model->indices});
-                if (set == VK_NULL_HANDLE) continue;
-                c.device.vk().CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c.program->layout(), 1, 1, &set, 0, nullptr);
-                bound = draw.model;
+    graph.pass("voxels.rasterise", m_program)
+        .read(positions)
+        .write(bits)
+        .record([this, draws = std::move(draws)](const graph::PassContext& c) {
+            const ModelGpu* bound = nullptr;
+            for (const Draw& draw : draws) {
+                if (draw.model != bound) {
+                    const VkDescriptorSet set =
+                        m_sets.of(*m_device, c.program->setLayout(1), *draw.model, {&draw.model->vertices, &draw.model->indices});
+                    if (set == VK_NULL_HANDLE) continue;
+                    c.device.vk().CmdBindDescriptorSets(c.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c.program->layout(), 1, 1, &set, 0, nullptr);
+                    bound = draw.model;
+                }
+                c.push(&draw.job, sizeof(draw.job));
+                c.device.vk().CmdDispatch(c.cmd, (draw.job.triangles + c.program->workgroup()[0] - 1) / c.program->workgroup()[0], 1, 1);
             }
-            c.push(&draw.job, sizeof(draw.job));
-            c.device.vk().CmdDispatch(c.cmd, (draw.job.triangles + c.program->workgroup()[0] - 1) / c.program->workgroup()[0], 1, 1);
-        }
-    });
+        });
     return bits;
 }
 

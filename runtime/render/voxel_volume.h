@@ -16,27 +16,29 @@ enum class Voxelizer : uint8_t { openvdb, gpu };
 
 // How the world is voxelized for methods that need a volume.
 struct Voxelization {
-    Voxelizer voxelizer = Voxelizer::openvdb;  // gpu: everything, every frame
+    Voxelizer voxelizer = Voxelizer::openvdb;                    // gpu: everything, every frame
     ao::VolumeStructure structure = ao::VolumeStructure::dense;  // nanovdb: the whole world, always by the CPU
     voxel::Shell shell = voxel::Shell::conservative;
-    uint32_t cells = 256;         // per side of the window: 64, 128, 256 or 512
-    float cellSize = 0.0f;        // metres; 0: the world's longest side fills the window, at most 0.14 m
-    bool exact = true;            // each frame waits for its voxels; false: waits at most 1 ms, voxels lag by a frame or more
-    std::filesystem::path cache;  // folder of cached static geometry; empty: no cache
+    uint32_t cells = 256;                 // per side of the window: 64, 128, 256 or 512
+    float cellSize = 0.0f;                // metres; 0: the world's longest side fills the window, at most 0.14 m
+    bool exact = true;                    // each frame waits for its voxels; false: waits at most 1 ms, voxels lag by a frame or more
+    std::filesystem::path cache;          // folder of cached static geometry; empty: no cache
     std::function<void(float)> building;  // 0 to 1 while static geometry is built, 1 at its end; from the thread that adds frames
 };
 
 class VoxelVolume {
 public:
-    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelVolume& out) { return VoxelRaster::create(device, shaders, out.m_raster); }
+    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelVolume& out) {
+        return VoxelRaster::create(device, shaders, out.m_raster);
+    }
 
     struct Scene {
         const scene::World& world;
-        float time;                           // seconds
+        float time;  // seconds
         const scene::Camera& camera;
         std::span<const Drawable> drawables;  // of the world at that time
         const Deform::Posed& posed;
-        bool masked;                          // alpha-masked surfaces are occluders
+        bool masked;  // alpha-masked surfaces are occluders
     };
     // Voxelizes the world and adds the upload or the rasterisation. Returns the bits and fills `volume` except its buffer; none while there
     // is no volume.
@@ -50,7 +52,7 @@ private:
     std::unique_ptr<voxel::Voxels> m_voxels;
     Voxelization m_how;
     bool m_masked = true;
-    gpu::Buffer m_bits;                // or the NanoVDB grid
+    gpu::Buffer m_bits;  // or the NanoVDB grid
     VoxelRaster m_raster;
 };
 

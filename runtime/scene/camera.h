@@ -11,12 +11,12 @@
 namespace obscura::scene {
 
 struct Camera {
-    glm::vec3 eye{0.0f, 1.7f, 4.0f};      // world, metres
-    glm::vec3 target{0.0f, 1.0f, 0.0f};   // world
+    glm::vec3 eye{0.0f, 1.7f, 4.0f};     // world, metres
+    glm::vec3 target{0.0f, 1.0f, 0.0f};  // world
     glm::vec3 up{0.0f, 1.0f, 0.0f};
-    float fovY = 1.0471976f;              // radians, of the visible part (the guard band adds to it)
-    float nearPlane = 0.05f;              // metres; far is at infinity
-    float orthoHalfHeight = 0.0f;         // > 0: orthographic, half the visible height in metres
+    float fovY = 1.0471976f;       // radians, of the visible part (the guard band adds to it)
+    float nearPlane = 0.05f;       // metres; far is at infinity
+    float orthoHalfHeight = 0.0f;  // > 0: orthographic, half the visible height in metres
 
     glm::mat4 view() const;  // world -> eye
     // Eye -> clip, Vulkan: y down, depth reversed (1 at the near plane, 0 at infinity). `size`: px of the whole image, guard band included;

@@ -79,8 +79,8 @@ Around around(const CameraPath& path, float time) {
         const ptrdiff_t n = ptrdiff_t(own);
         return size_t(path.loop ? (i % n + n) % n : std::clamp<ptrdiff_t>(i, 0, n - 1));
     };
-    const auto after = std::upper_bound(path.keys.begin(), path.keys.begin() + ptrdiff_t(own), time,
-                                        [](float t, const CameraPath::Key& key) { return t < key.time; });
+    const auto after = std::upper_bound(
+        path.keys.begin(), path.keys.begin() + ptrdiff_t(own), time, [](float t, const CameraPath::Key& key) { return t < key.time; });
     const ptrdiff_t segment = std::max<ptrdiff_t>(after - path.keys.begin() - 1, 0);
     Around out;
     for (int i = 0; i < 4; ++i) {
@@ -139,7 +139,8 @@ CameraPath loadCameraPath(const std::filesystem::path& file) {
     for (size_t i = 0; i < keys.size(); ++i) {
         path.keys.push_back(keyOf(keys.at(i)));
         if (i > 0 && path.keys[i].time <= path.keys[i - 1].time)
-            keys.at(i).at("time").fail(fmt::format("{} s does not come after the key before, at {} s", path.keys[i].time, path.keys[i - 1].time));
+            keys.at(i).at("time").fail(
+                fmt::format("{} s does not come after the key before, at {} s", path.keys[i].time, path.keys[i - 1].time));
     }
     const auto& first = path.keys.front();
     const auto& last = path.keys.back();
@@ -162,11 +163,11 @@ void CameraPath::save(const std::filesystem::path& file) const {
         return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     };
     std::string text = fmt::format("{{\n  \"name\": {},\n  \"scene\": {},\n  \"duration\": {},\n  \"loop\": {},\n  \"keys\": [\n",
-                                   quoted(name), quoted(scene), duration, loop);
+        quoted(name), quoted(scene), duration, loop);
     for (size_t i = 0; i < keys.size(); ++i) {
         // Double precision: loading gives the same float in radians.
-        text += fmt::format("    {{\"time\": {}, \"eye\": {}, \"target\": {}, \"verticalFovDegrees\": {}}}{}\n", keys[i].time, triple(keys[i].eye),
-                            triple(keys[i].target), glm::degrees(double(keys[i].fovY)), i + 1 < keys.size() ? "," : "");
+        text += fmt::format("    {{\"time\": {}, \"eye\": {}, \"target\": {}, \"verticalFovDegrees\": {}}}{}\n", keys[i].time,
+            triple(keys[i].eye), triple(keys[i].target), glm::degrees(double(keys[i].fovY)), i + 1 < keys.size() ? "," : "");
     }
     text += events.empty() ? std::string("  ]\n}\n") : fmt::format("  ],\n  \"events\": {}\n}}\n", events);
 

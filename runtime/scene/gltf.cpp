@@ -4,8 +4,8 @@
 #include <new>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
 
 #include "scene/gltf_parts.h"
 #include "scene/json_at.h"

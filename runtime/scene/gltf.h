@@ -18,8 +18,8 @@ struct Error : std::runtime_error {
 };
 
 struct LoadOptions {
-    int scene = -1;              // -1: the file's default scene
-    bool loadImages = true;      // false: images are 1x1 white, for tools that need geometry only
+    int scene = -1;                     // -1: the file's default scene
+    bool loadImages = true;             // false: images are 1x1 white, for tools that need geometry only
     size_t maxBytes = size_t(4) << 30;  // limit of all decoded data
 };
 

@@ -29,8 +29,8 @@ std::string_view typeName(int type) {
 // Memory layout of an accessor's elements.
 struct Layout {
     int components = 1;
-    int rows = 1;             // components in a column
-    size_t columnBytes = 0;   // with padding
+    int rows = 1;            // components in a column
+    size_t columnBytes = 0;  // with padding
     size_t elementBytes = 0;
 };
 
@@ -59,7 +59,8 @@ void copyElements(const uint8_t* source, size_t stride, const Layout& layout, bo
     for (size_t i = 0; i < count; ++i, source += stride)
         for (int k = 0; k < layout.components; ++k) {
             From value;
-            std::memcpy(&value, source + size_t(k / layout.rows) * layout.columnBytes + size_t(k % layout.rows) * sizeof(From), sizeof(From));
+            std::memcpy(
+                &value, source + size_t(k / layout.rows) * layout.columnBytes + size_t(k % layout.rows) * sizeof(From), sizeof(From));
             *out++ = convert<From, To>(value, normalized);
         }
 }
@@ -91,14 +92,16 @@ void applySparse(Context& context, const Asset& asset, int index, const Layout& 
     std::vector<uint32_t> where(count);
     Layout scalar;
     scalar.columnBytes = scalar.elementBytes = bytesOf(indices.componentType);
-    copyAny(indices, scalar, viewOf(context, asset, sparse.indices.bufferView).data() + sparse.indices.byteOffset, scalar.elementBytes, count, where.data());
+    copyAny(indices, scalar, viewOf(context, asset, sparse.indices.bufferView).data() + sparse.indices.byteOffset, scalar.elementBytes,
+        count, where.data());
     const uint8_t* values = viewOf(context, asset, sparse.values.bufferView).data() + sparse.values.byteOffset;
     for (size_t i = 0; i < count; ++i) {
         if (where[i] >= accessor.count || (i > 0 && where[i] <= where[i - 1]))
             context.fail(pointer + "/indices",
-                         fmt::format("index {} at {} is out of range or not above the one before; indices must increase and be below {}",
-                                     where[i], i, accessor.count));
-        copyAny(accessor, layout, values + i * layout.elementBytes, layout.elementBytes, 1, out.data() + size_t(where[i]) * size_t(layout.components));
+                fmt::format("index {} at {} is out of range or not above the one before; indices must increase and be below {}", where[i],
+                    i, accessor.count));
+        copyAny(accessor, layout, values + i * layout.elementBytes, layout.elementBytes, 1,
+            out.data() + size_t(where[i]) * size_t(layout.components));
     }
 }
 
@@ -112,15 +115,16 @@ std::vector<To> read(Context& context, const Asset& asset, int index) {
         // Zeros take no space in the file: a few bytes of JSON must not allocate gigabytes.
         constexpr size_t kMaxZeros = size_t(1) << 22;
         if (accessor.count > kMaxZeros)
-            context.fail(pointer + "/count",
-                         fmt::format("{} elements without a bufferView; at most {} are supported", accessor.count, kMaxZeros));
+            context.fail(
+                pointer + "/count", fmt::format("{} elements without a bufferView; at most {} are supported", accessor.count, kMaxZeros));
     }
     context.spend(total * sizeof(To), pointer);
     std::vector<To> out(total);
     if (accessor.bufferView >= 0) {
         const size_t view = size_t(accessor.bufferView);
         const size_t stride = asset.gltf->bufferViews[view].byteStride;
-        copyAny(accessor, layout, viewOf(context, asset, accessor.bufferView).data() + accessor.byteOffset, stride != 0 ? stride : layout.elementBytes, accessor.count, out.data());
+        copyAny(accessor, layout, viewOf(context, asset, accessor.bufferView).data() + accessor.byteOffset,
+            stride != 0 ? stride : layout.elementBytes, accessor.count, out.data());
     }
     applySparse(context, asset, index, layout, out);
     return out;

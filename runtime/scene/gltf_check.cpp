@@ -23,9 +23,12 @@ int componentsOf(std::string_view type) {
 
 size_t bytesOf(int componentType) {
     switch (componentType) {
-        case 5120: case 5121: return 1;
-        case 5122: case 5123: return 2;
-        case 5125: case 5126: return 4;
+        case 5120:
+        case 5121: return 1;
+        case 5122:
+        case 5123: return 2;
+        case 5125:
+        case 5126: return 4;
         default: return 0;
     }
 }
@@ -48,9 +51,7 @@ namespace {
 
 constexpr std::array kSupported{kDraco, kMeshopt, kTransform, kUnlit, kEmissiveStrength, kQuantization};
 
-bool supported(const std::string& extension) {
-    return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
-}
+bool supported(const std::string& extension) { return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end(); }
 
 void checkAsset(const JsonAt& root) {
     const JsonAt asset = root.at("asset").expectObject();
@@ -82,8 +83,7 @@ void checkExtensions(Context& context, const JsonAt& root) {
     }
     for (size_t i = 0; required && i < required->expectArray().size(); ++i) {
         const JsonAt at = required->at(i);
-        if (!supported(at.text()))
-            at.fail(fmt::format("needs the extension {}, which is not supported; export without it", at.text()));
+        if (!supported(at.text())) at.fail(fmt::format("needs the extension {}, which is not supported; export without it", at.text()));
     }
     for (size_t i = 0; i < names.size(); ++i)
         if (!supported(names[i])) context.warn(used->at(i).pointer(), fmt::format("the extension {} is ignored", names[i]));
@@ -144,8 +144,7 @@ void checkBuffers(const JsonAt& root, bool hasChunk) {
         if (const auto name = at.find("name")) name->text();
         if (const auto target = at.find("target"); target && target->whole() != 34962 && target->whole() != 34963)
             target->fail("must be 34962 (vertices) or 34963 (indices)");
-        if (const auto stride = at.find("byteStride"); stride && stride->whole(4, 252) % 4 != 0)
-            stride->fail("must be a multiple of four");
+        if (const auto stride = at.find("byteStride"); stride && stride->whole(4, 252) % 4 != 0) stride->fail("must be a multiple of four");
         if (const auto extensions = at.find("extensions")) extensions->expectObject();
         if (!isCompressed(at)) continue;
         checkMeshopt(at, count);
@@ -160,8 +159,8 @@ void checkBuffers(const JsonAt& root, bool hasChunk) {
 void checkInView(const JsonAt& root, const JsonAt& at, size_t view, uint64_t offset, uint64_t size, uint64_t count) {
     const uint64_t length = root.at("bufferViews").at(view).at("byteLength").whole();
     if (offset > length || size > length - offset)
-        at.fail(fmt::format("{} elements, {} bytes from byte {}, reach past the end of bufferView {} ({} bytes)", count, size,
-                            offset, view, length));
+        at.fail(fmt::format(
+            "{} elements, {} bytes from byte {}, reach past the end of bufferView {} ({} bytes)", count, size, offset, view, length));
 }
 
 void checkSparse(const JsonAt& root, const JsonAt& accessor, size_t viewCount, size_t element, size_t lastElement, size_t alignment) {
@@ -236,8 +235,8 @@ void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk) 
     root.expectObject();
     checkAsset(root);
     checkExtensions(context, root);
-    for (const char* key : {"scenes", "nodes", "meshes", "skins", "cameras", "animations", "materials", "textures", "images",
-                            "samplers", "accessors", "bufferViews", "buffers"})
+    for (const char* key : {"scenes", "nodes", "meshes", "skins", "cameras", "animations", "materials", "textures", "images", "samplers",
+             "accessors", "bufferViews", "buffers"})
         if (const auto list = root.find(key)) {
             list->expectArray();
             for (size_t i = 0; i < list->size(); ++i) {

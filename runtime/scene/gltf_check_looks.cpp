@@ -44,7 +44,7 @@ void checkTextureInfo(const JsonAt& root, const JsonAt& material, const char* ke
 
 // Checks that `at` refers to an accessor of one of the types and component types, with `count` elements (0: any number).
 size_t checkAccessor(const JsonAt& root, const JsonAt& at, std::initializer_list<const char*> types,
-                     std::initializer_list<uint64_t> components, uint64_t count) {
+    std::initializer_list<uint64_t> components, uint64_t count) {
     const size_t index = at.index(countOf(root, "accessors"), "accessor");
     const JsonAt accessor = root.at("accessors").at(index);
     const std::string type = accessor.at("type").text();
@@ -60,7 +60,8 @@ size_t checkAccessor(const JsonAt& root, const JsonAt& at, std::initializer_list
 
 bool endsInNumber(std::string_view name, std::string_view stem) {
     return name.starts_with(stem) && name.size() > stem.size() && name.size() < stem.size() + 3 &&
-           std::all_of(name.begin() + ptrdiff_t(stem.size()), name.end(), [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+           std::all_of(
+               name.begin() + ptrdiff_t(stem.size()), name.end(), [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
 }
 
 void checkAttribute(const JsonAt& root, const JsonAt& at, const std::string& name, uint64_t count) {
@@ -99,8 +100,7 @@ void checkPrimitive(const JsonAt& root, const JsonAt& at) {
             const std::string& name = item.key();
             if (name == "POSITION" || name == "NORMAL" || name == "TANGENT")
                 checkAccessor(root, value, {"VEC3"}, {5126, 5120, 5121, 5122, 5123}, count);
-            else
-                value.index(countOf(root, "accessors"), "accessor");
+            else value.index(countOf(root, "accessors"), "accessor");
         }
     }
     const auto extensions = at.find("extensions");

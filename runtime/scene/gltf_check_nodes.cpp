@@ -119,7 +119,8 @@ void checkSkins(const JsonAt& root) {
             if (accessor.at("type").text() != "MAT4" || accessor.at("componentType").whole() != 5126)
                 matrices->fail(fmt::format("accessor {} must have type MAT4 and component type 5126 (float)", index));
             if (accessor.at("count").whole() < joints.size())
-                matrices->fail(fmt::format("accessor {} has {} matrices for {} joints", index, accessor.at("count").whole(), joints.size()));
+                matrices->fail(
+                    fmt::format("accessor {} has {} matrices for {} joints", index, accessor.at("count").whole(), joints.size()));
         }
     }
 }

@@ -13,9 +13,7 @@
 namespace obscura::scene::gltf {
 namespace {
 
-size_t wholeOf(const tinygltf::Value& object, const char* key) {
-    return object.Has(key) ? size_t(object.Get(key).GetNumberAsDouble()) : 0;
-}
+size_t wholeOf(const tinygltf::Value& object, const char* key) { return object.Has(key) ? size_t(object.Get(key).GetNumberAsDouble()) : 0; }
 
 std::string textOf(const tinygltf::Value& object, const char* key) {
     return object.Has(key) ? object.Get(key).Get<std::string>() : std::string();
@@ -35,8 +33,8 @@ Bytes unpackView(Context& context, const Asset& asset, const tinygltf::Value& pa
     const std::string mode = textOf(packed, "mode"), filter = textOf(packed, "filter");
     // The codecs need at least 1 byte for 64 bytes of output. A claim far above that is false and would only allocate memory.
     if (count * stride > length * 256 + 65536)
-        context.fail(pointer,
-                     fmt::format("{} bytes cannot be stored in {} compressed ones; compress the model again", count * stride, length));
+        context.fail(
+            pointer, fmt::format("{} bytes cannot be stored in {} compressed ones; compress the model again", count * stride, length));
     context.spend(uint64_t(count) * stride, pointer);
     Bytes out(count * stride);
     int status = -1;
@@ -71,7 +69,8 @@ void unpackViews(Context& context, Asset& asset) {
 std::span<const uint8_t> viewOf(const Context& context, const Asset& asset, int view) {
     const auto bytes = asset.views[size_t(view)];
     if (bytes.empty())
-        context.fail(fmt::format("/bufferViews/{}/buffer", view), fmt::format("buffer {} has neither a uri nor a BIN chunk", asset.gltf->bufferViews[size_t(view)].buffer));
+        context.fail(fmt::format("/bufferViews/{}/buffer", view),
+            fmt::format("buffer {} has neither a uri nor a BIN chunk", asset.gltf->bufferViews[size_t(view)].buffer));
     return bytes;
 }
 
@@ -90,7 +89,8 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
     // 100 times faster than this limit. The model is rejected at the first primitive that exceeds it.
     if (threadSeconds() - start > 1.0 + 20e-6 * double(view.size()))
         context.fail(where, "the Draco data is damaged (it takes too long); compress the model again");
-    if (!decoded.ok()) context.fail(where, fmt::format("the Draco data is damaged ({}); compress the model again", decoded.status().error_msg()));
+    if (!decoded.ok())
+        context.fail(where, fmt::format("the Draco data is damaged ({}); compress the model again", decoded.status().error_msg()));
     const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
 
     DracoMesh out;
@@ -108,11 +108,11 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
         if (attribute == nullptr)
             context.fail(where + "/attributes/" + name, "the compressed mesh has no attribute of that id; compress the model again");
         if (points != accessor.count)
-            context.fail(where,
-                         fmt::format("the compressed mesh has {} vertices, but the accessor of {} has {}", points, name, accessor.count));
+            context.fail(
+                where, fmt::format("the compressed mesh has {} vertices, but the accessor of {} has {}", points, name, accessor.count));
         if (attribute->num_components() != components)
             context.fail(where + "/attributes/" + name,
-                         fmt::format("has {} components, but its accessor has {}", attribute->num_components(), components));
+                fmt::format("has {} components, but its accessor has {}", attribute->num_components(), components));
         context.spend(uint64_t(points) * uint64_t(components) * 4, where);
         std::vector<float> values(points * size_t(components));
         for (draco::PointIndex point(0); point < uint32_t(points); ++point) {
@@ -123,7 +123,7 @@ DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Prim
         }
         // Draco keeps integers unchanged; the accessor says whether they are normalized.
         if (accessor.normalized && !attribute->normalized()) {
-            const float largest = accessor.componentType == TINYGLTF_COMPONENT_TYPE_BYTE     ? 127.0f
+            const float largest = accessor.componentType == TINYGLTF_COMPONENT_TYPE_BYTE            ? 127.0f
                                   : accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ? 255.0f
                                   : accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT         ? 32767.0f
                                                                                                     : 65535.0f;

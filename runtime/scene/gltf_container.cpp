@@ -43,8 +43,7 @@ void checkDepth(const Context& context, std::string_view text) {
 }
 
 std::unique_ptr<nlohmann::json> parseText(const Context& context, std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf"))
-        context.fail("", "starts with a byte-order mark, which glTF forbids; save as UTF-8 without it");
+    if (text.starts_with("\xef\xbb\xbf")) context.fail("", "starts with a byte-order mark, which glTF forbids; save as UTF-8 without it");
     checkDepth(context, text);
     try {
         return std::make_unique<nlohmann::json>(nlohmann::json::parse(text.begin(), text.end()));

@@ -122,8 +122,7 @@ std::vector<Bytes> readBuffers(Context& context, Document& document) {
             buffers.emplace_back();
             continue;
         }
-        if (bytes.size() < length)
-            at.fail(fmt::format("byteLength is {}, but its data has only {} bytes", length, bytes.size()));
+        if (bytes.size() < length) at.fail(fmt::format("byteLength is {}, but its data has only {} bytes", length, bytes.size()));
         context.spend(bytes.size(), at.pointer());
         bytes.resize(size_t(length));
         buffers.push_back(std::move(bytes));

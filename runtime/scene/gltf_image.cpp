@@ -80,7 +80,8 @@ std::vector<Image> decodeImages(Context& context, const Asset& asset, const std:
         context.spend(uint64_t(width) * uint64_t(height) * 4, pointer);
         images[i].width = uint32_t(width);
         images[i].height = uint32_t(height);
-        const auto same = std::find_if(uses.begin(), uses.begin() + ptrdiff_t(i), [&](const ImageUse& u) { return u.source == uses[i].source; });
+        const auto same =
+            std::find_if(uses.begin(), uses.begin() + ptrdiff_t(i), [&](const ImageUse& u) { return u.source == uses[i].source; });
         if (same == uses.begin() + ptrdiff_t(i)) decodes.push_back(i);
     }
 

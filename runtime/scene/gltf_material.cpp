@@ -21,7 +21,8 @@ Sampler samplerOf(const tinygltf::Sampler& from) {
     sampler.wrapU = wrapOf(from.wrapS);
     sampler.wrapV = wrapOf(from.wrapT);
     sampler.linearMag = from.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
-    sampler.linearMin = from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST &&
+    sampler.linearMin = from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST &&
+                        from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST &&
                         from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
     sampler.mipmaps = from.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && from.minFilter != TINYGLTF_TEXTURE_FILTER_LINEAR;
     return sampler;
@@ -53,8 +54,8 @@ public:
             use.texCoord = int(numberOf(t, "texCoord", 0, float(use.texCoord)));
         }
         if (use.texCoord > 1) {
-            m_context.warn(pointer,
-                           fmt::format("texture coordinate set {} is not supported (0 and 1 are); the texture is ignored", use.texCoord));
+            m_context.warn(
+                pointer, fmt::format("texture coordinate set {} is not supported (0 and 1 are); the texture is ignored", use.texCoord));
             return {};
         }
         use.texture = texture(info.index, srgb, pointer);
@@ -97,7 +98,8 @@ Shell shellOf(const tinygltf::Material& from, const Material& material, Context&
     if (!from.extras.IsObject() || !from.extras.Has("obscura_shell")) return fallback;
     const tinygltf::Value& value = from.extras.Get("obscura_shell");
     const std::string word = value.IsString() ? value.Get<std::string>() : "";
-    for (const auto& [name, shell] : {std::pair("solid", Shell::solid), std::pair("flipped", Shell::flipped), std::pair("sheet", Shell::sheet)})
+    for (const auto& [name, shell] :
+        {std::pair("solid", Shell::solid), std::pair("flipped", Shell::flipped), std::pair("sheet", Shell::sheet)})
         if (word == name) return shell;
     context.warn(pointer + "/extras/obscura_shell", "must be \"solid\", \"flipped\" or \"sheet\"; it is ignored");
     return fallback;

@@ -46,7 +46,8 @@ public:
         }
         for (size_t i = 0; i < out.size(); ++i)
             if (out[i] >= vertexCount)
-                m_context.fail(m_pointer + "/indices", fmt::format("index {} at {} is out of range, there are {} vertices", out[i], i, vertexCount));
+                m_context.fail(
+                    m_pointer + "/indices", fmt::format("index {} at {} is out of range, there are {} vertices", out[i], i, vertexCount));
         return out;
     }
 
@@ -159,7 +160,8 @@ std::vector<uint32_t> triangles(Context& context, const std::string& pointer, in
     return out;
 }
 
-std::vector<Primitive::Target> readTargets(Context& context, const Asset& asset, const tinygltf::Primitive& from, const std::string& pointer) {
+std::vector<Primitive::Target> readTargets(
+    Context& context, const Asset& asset, const tinygltf::Primitive& from, const std::string& pointer) {
     std::vector<Primitive::Target> targets;
     for (size_t i = 0; i < from.targets.size(); ++i) {
         Primitive::Target target;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <glm/gtc/type_ptr.hpp>
 #include <tiny_gltf.h>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "scene/gltf_parts.h"
 
@@ -20,7 +20,8 @@ bool decompose(const glm::mat4& matrix, Node& node) {
     if (!(std::min({scale.x, scale.y, scale.z}) > 1e-12f) || !std::isfinite(scale.x + scale.y + scale.z)) return false;
     if (glm::determinant(axes) < 0.0f) scale.x = -scale.x;
     for (int i = 0; i < 3; ++i) axes[i] /= scale[i];
-    const float skew = std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])), std::abs(glm::dot(axes[2], axes[0]))});
+    const float skew =
+        std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])), std::abs(glm::dot(axes[2], axes[0]))});
     if (skew > 1e-4f) return false;
     node.translation = glm::vec3(matrix[3]);
     node.rotation = glm::normalize(glm::quat_cast(axes));
@@ -129,8 +130,8 @@ void addNodes(Context& context, const Asset& asset, int scene, Model& model) {
     for (size_t i = 0; i < model.skins.size(); ++i)
         for (const int joint : model.skins[i].joints)
             if (!reached[size_t(joint)]) {
-                context.warn(fmt::format("/skins/{}/joints", i),
-                             fmt::format("joint node {} is not in the scene; it stays at the origin", joint));
+                context.warn(
+                    fmt::format("/skins/{}/joints", i), fmt::format("joint node {} is not in the scene; it stays at the origin", joint));
                 break;
             }
 }

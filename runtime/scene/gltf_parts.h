@@ -73,12 +73,12 @@ Document readDocument(Context& context, Bytes bytes);
 // gltf_check.cpp, gltf_check_looks.cpp, gltf_check_nodes.cpp
 void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk);
 void checkMaterials(Context& context, const nlohmann::json& json, bool hasChunk);  // images, samplers, textures, materials
-void checkMeshes(Context& context, const nlohmann::json& json);   // references and counts of primitives
-void checkScenes(Context& context, const nlohmann::json& json);   // cameras, nodes, skins, scenes, animations
-int componentsOf(std::string_view type);                          // "VEC3" -> 3, 0 when unknown
-size_t bytesOf(int componentType);                                // 5126 -> 4, 0 when unknown
-size_t elementBytes(std::string_view type, int componentType);    // matrix columns padded to four bytes
-size_t lastElementBytes(std::string_view type, int componentType);  // an accessor may end before its last padding
+void checkMeshes(Context& context, const nlohmann::json& json);                    // references and counts of primitives
+void checkScenes(Context& context, const nlohmann::json& json);                    // cameras, nodes, skins, scenes, animations
+int componentsOf(std::string_view type);                                           // "VEC3" -> 3, 0 when unknown
+size_t bytesOf(int componentType);                                                 // 5126 -> 4, 0 when unknown
+size_t elementBytes(std::string_view type, int componentType);                     // matrix columns padded to four bytes
+size_t lastElementBytes(std::string_view type, int componentType);                 // an accessor may end before its last padding
 
 // gltf_files.cpp: the bytes of each buffer and image, in order. Buffers are cut to their byteLength, and empty where the file gives them no
 // data. Files of images that are not `wanted` must exist, but are not read.

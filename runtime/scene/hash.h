@@ -14,8 +14,12 @@ class Hash {
 public:
     Hash& add(const void* bytes, size_t count);
     Hash& add(std::string_view text);  // its length too
-    template <class T> requires std::is_arithmetic_v<T> Hash& add(T value) { return add(&value, sizeof value); }
-    std::string hex() const;           // 32 digits
+    template <class T>
+        requires std::is_arithmetic_v<T>
+    Hash& add(T value) {
+        return add(&value, sizeof value);
+    }
+    std::string hex() const;  // 32 digits
 
 private:
     void word(uint64_t value);

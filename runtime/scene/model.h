@@ -86,7 +86,7 @@ struct Primitive {
     std::vector<std::array<uint16_t, kInfluences>> joints;  // empty when not skinned; index into Skin::joints
     std::vector<std::array<float, kInfluences>> weights;    // sum 1
 
-    struct Target {                        // displacements; empty arrays mean zero
+    struct Target {  // displacements; empty arrays mean zero
         std::vector<glm::vec3> positions;
         std::vector<glm::vec3> normals;
         std::vector<glm::vec3> tangents;
@@ -141,9 +141,9 @@ struct Channel {
     int node = -1;
     AnimatedPath path = AnimatedPath::translation;
     Interpolation interpolation = Interpolation::linear;
-    int components = 3;          // 3, 4 (quaternion xyzw) or the number of morph weights
-    std::vector<float> times;    // seconds, strictly increasing, at least one
-    std::vector<float> values;   // times.size() * components, three times that for cubicSpline (in, value, out)
+    int components = 3;         // 3, 4 (quaternion xyzw) or the number of morph weights
+    std::vector<float> times;   // seconds, strictly increasing, at least one
+    std::vector<float> values;  // times.size() * components, three times that for cubicSpline (in, value, out)
 };
 
 struct Animation {
@@ -153,17 +153,17 @@ struct Animation {
 };
 
 struct Model {
-    std::string name;    // file stem
-    uint64_t hash = 0;   // of the bytes of all files read, and of the scene index
+    std::string name;   // file stem
+    uint64_t hash = 0;  // of the bytes of all files read, and of the scene index
     std::vector<Image> images;
     std::vector<Texture> textures;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Skin> skins;
     std::vector<Node> nodes;
-    std::vector<int> roots;       // of the chosen scene
-    std::vector<int> order;       // nodes reachable from roots, parents before children
-    std::vector<Lens> lenses;     // glTF cameras
+    std::vector<int> roots;    // of the chosen scene
+    std::vector<int> order;    // nodes reachable from roots, parents before children
+    std::vector<Lens> lenses;  // glTF cameras
     std::vector<Animation> animations;
     std::vector<std::string> warnings;  // one line each: what was ignored or repaired
 

@@ -12,7 +12,7 @@ namespace {
 glm::mat4 compose(const glm::vec3& translation, const glm::quat& rotation, const glm::vec3& scale) {
     const glm::mat3 axes = glm::mat3_cast(rotation);
     return {glm::vec4(axes[0] * scale.x, 0.0f), glm::vec4(axes[1] * scale.y, 0.0f), glm::vec4(axes[2] * scale.z, 0.0f),
-            glm::vec4(translation, 1.0f)};
+        glm::vec4(translation, 1.0f)};
 }
 
 glm::quat quaternion(const float* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
@@ -41,8 +41,8 @@ void sample(const Channel& channel, float time, float* out) {
     if (cubic) {  // glTF 2.0, appendix C.5
         const float t2 = t * t, t3 = t2 * t;
         for (size_t i = 0; i < n; ++i)
-            out[i] = (2.0f * t3 - 3.0f * t2 + 1.0f) * a[i] + step * (t3 - 2.0f * t2 + t) * a[n + i] +
-                     (-2.0f * t3 + 3.0f * t2) * b[i] + step * (t3 - t2) * (b - n)[i];
+            out[i] = (2.0f * t3 - 3.0f * t2 + 1.0f) * a[i] + step * (t3 - 2.0f * t2 + t) * a[n + i] + (-2.0f * t3 + 3.0f * t2) * b[i] +
+                     step * (t3 - t2) * (b - n)[i];
     } else if (channel.path == AnimatedPath::rotation) {
         const glm::quat q = glm::slerp(unit(quaternion(a)), unit(quaternion(b)), t);
         out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
@@ -108,8 +108,8 @@ std::vector<glm::mat4> jointMatrices(const Model& model, const Skin& skin, const
     return matrices;
 }
 
-void deform(const Model& model, int node, const Primitive& primitive, const Pose& pose,
-            std::vector<glm::vec3>& positions, std::vector<glm::vec3>* normals) {
+void deform(const Model& model, int node, const Primitive& primitive, const Pose& pose, std::vector<glm::vec3>& positions,
+    std::vector<glm::vec3>* normals) {
     positions = primitive.positions;
     if (normals != nullptr) *normals = primitive.normals;
     const auto& weights = pose.weights[size_t(node)];

@@ -41,8 +41,8 @@ uint32_t World::add(Instance instance) {
 }
 
 void World::remove(uint32_t id) {
-    m_instances.erase(std::remove_if(m_instances.begin(), m_instances.end(), [id](const Instance& i) { return i.id == id; }),
-                      m_instances.end());
+    m_instances.erase(
+        std::remove_if(m_instances.begin(), m_instances.end(), [id](const Instance& i) { return i.id == id; }), m_instances.end());
 }
 
 void World::clear() { m_instances.clear(); }

@@ -40,8 +40,8 @@ struct PosedPrimitive {
     const Primitive* primitive = nullptr;  // indices, uv, colours
     uint32_t instance = 0;                 // Instance::id
     int node = -1;
-    bool flipped = false;                  // negative determinant: winding is reversed
-    bool moves = false;                    // node-, skin- or morph-animated
+    bool flipped = false;  // negative determinant: winding is reversed
+    bool moves = false;    // node-, skin- or morph-animated
     std::vector<glm::vec3> positions;
 };
 std::vector<PosedPrimitive> pose(const World& world, float time);

@@ -46,7 +46,8 @@ float AlphaMask::sample(glm::vec2 uv) const {
     const float fx = std::floor(x - 0.5f), fy = std::floor(y - 0.5f);
     const int ix = int(fx), iy = int(fy);
     const float tx = x - 0.5f - fx, ty = y - 0.5f - fy;
-    return (1 - ty) * ((1 - tx) * texel(ix, iy) + tx * texel(ix + 1, iy)) + ty * ((1 - tx) * texel(ix, iy + 1) + tx * texel(ix + 1, iy + 1));
+    return (1 - ty) * ((1 - tx) * texel(ix, iy) + tx * texel(ix + 1, iy)) +
+           ty * ((1 - tx) * texel(ix, iy + 1) + tx * texel(ix + 1, iy + 1));
 }
 
 bool AlphaMask::open(uint32_t triangle, float u, float v) const {

@@ -83,7 +83,7 @@ void write(const std::filesystem::path& file, const Reference& reference) {
 }  // namespace
 
 std::string worldKey(std::span<const scene::PosedPrimitive> primitives, const WorldGeometry& geometry, const CapturedFrame& frame,
-                     std::span<const RayFalloff> falloffs, const WorldOptions& options) {
+    std::span<const RayFalloff> falloffs, const WorldOptions& options) {
     Hash hash;
     hash.add("world").add(kVersion).add(geometry.skipMasked).add(geometry.skipBlended).add(options.offset).add(options.packets);
     for (const scene::PosedPrimitive& posed : primitives) {
@@ -107,7 +107,7 @@ std::string screenKey(const CapturedFrame& frame, std::span<const RayFalloff> fa
 }
 
 std::string viewKey(const scene::World& world, float time, const scene::Camera& camera, glm::uvec2 visible, const WorldGeometry& geometry,
-                    const RayFalloff& falloff) {
+    const RayFalloff& falloff) {
     Hash hash;
     hash.add("view").add(kVersion).add(geometry.skipMasked).add(geometry.skipBlended).add(visible.x).add(visible.y);
     for (const scene::Instance& instance : world.instances()) {

@@ -18,13 +18,13 @@ using scene::Hash;
 // materials), geometry options, the frame's receivers and camera, names, samples and reaches of the falloffs, and the ray options except
 // threads and progress, which do not change the result.
 std::string worldKey(std::span<const scene::PosedPrimitive> primitives, const WorldGeometry& geometry, const CapturedFrame& frame,
-                     std::span<const RayFalloff> falloffs, const WorldOptions& options);
+    std::span<const RayFalloff> falloffs, const WorldOptions& options);
 std::string screenKey(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const ScreenOptions& options);
 
 // Key of a view, from the inputs of a world reference that are known before anything is posed or drawn: the world's instances, its time if
 // it has animations, the camera except its near plane, the visible size, geometry options, the falloff. Ray options are not included.
 std::string viewKey(const scene::World& world, float time, const scene::Camera& camera, glm::uvec2 visible, const WorldGeometry& geometry,
-                    const RayFalloff& falloff);
+    const RayFalloff& falloff);
 
 class ReferenceCache {
 public:

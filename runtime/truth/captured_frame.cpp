@@ -73,7 +73,8 @@ void linearizeDepth(CapturedFrame& frame, const std::string& file) {
     for (size_t i = 0; i < frame.depth.size(); ++i) {
         float& z = frame.depth[i];
         if (!(z >= 0.0f && z <= 1.0f))
-            throw scene::Error(scene::errorLine(file, "", fmt::format("Z is {} at pixel ({}, {}); device depth lies in [0, 1]", z, i % frame.size.x, i / frame.size.x)));
+            throw scene::Error(scene::errorLine(
+                file, "", fmt::format("Z is {} at pixel ({}, {}); device depth lies in [0, 1]", z, i % frame.size.x, i / frame.size.x)));
         const float linear = (z * view.linearize.x + view.linearize.y) / (z * view.linearize.z + view.linearize.w);
         z = std::isfinite(linear) && linear > 0.0f && linear < frame.skyDepth ? linear : frame.skyDepth;
     }
@@ -203,7 +204,8 @@ CapturedFrame readCapture(const std::filesystem::path& path) {
         for (int i = 0; i < 16; ++i) glm::value_ptr(frame.projection)[i] = float(at->at(size_t(i)).number());
         shared::View view{};
         const char* reason = "";
-        if (ao::viewOf(lensOf(frame, device ? ao::DepthKind::device : ao::DepthKind::linear), view, reason) != ao::Status::ok) at->fail(reason);
+        if (ao::viewOf(lensOf(frame, device ? ao::DepthKind::device : ao::DepthKind::linear), view, reason) != ao::Status::ok)
+            at->fail(reason);
     }
     if (const auto at = root.find("skyDepth")) frame.skyDepth = float(at->number(1e-3, 1e8));
 
@@ -212,7 +214,7 @@ CapturedFrame readCapture(const std::filesystem::path& path) {
     const auto fail = [&](const std::string& what) { throw scene::Error(scene::errorLine(file.string(), "", what)); };
     if (picture.width != frame.size.x || picture.height != frame.size.y)
         fail(fmt::format("is {} x {} pixels, but visible + 2 * guardBand in {} makes {} x {}", picture.width, picture.height,
-                         withSuffix(stem, ".json").filename().string(), frame.size.x, frame.size.y));
+            withSuffix(stem, ".json").filename().string(), frame.size.x, frame.size.y));
     const auto* z = picture.find("Z");
     if (!z) fail("channel Z is missing; it holds the depth");
     frame.depth = z->values;
@@ -226,7 +228,8 @@ CapturedFrame readCapture(const std::filesystem::path& path) {
             if (!n[i]) fail(fmt::format("channel N.{} is missing; give N.X, N.Y and N.Z, or none of them", "XYZ"[i]));
         const glm::mat3 eyeFromSource = world ? glm::mat3(camera->view()) : glm::mat3(1.0f);
         for (size_t i = 0; i < frame.normals.size(); ++i)
-            frame.normals[i] = frame.isSky(i) ? glm::vec3(0.0f) : eyeFromSource * glm::vec3(n[0]->values[i], n[1]->values[i], n[2]->values[i]);
+            frame.normals[i] =
+                frame.isSky(i) ? glm::vec3(0.0f) : eyeFromSource * glm::vec3(n[0]->values[i], n[1]->values[i], n[2]->values[i]);
     }
     frame.check(file.string());
     for (glm::vec3& normal : frame.normals)

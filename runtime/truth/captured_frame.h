@@ -28,18 +28,18 @@
 namespace obscura::truth {
 
 struct CapturedFrame {
-    glm::uvec2 size{0};     // px, guard band included
-    glm::uvec2 guard{0};    // px on each side
-    float verticalFov = 1.0471976f;  // radians, of the visible part
-    float near = 0.05f;     // m
-    float skyDepth = 1e4f;  // m; linear depths from here on are sky
-    glm::mat4 projection{1.0f};              // eye -> clip of the whole image
-    std::optional<scene::Camera> camera;     // empty: eye space is world space
-    std::vector<float> depth;                // linear, m; rows top to bottom
-    std::vector<glm::vec3> normals;          // eye space, unit, zero for sky; empty if the capture has none
+    glm::uvec2 size{0};                   // px, guard band included
+    glm::uvec2 guard{0};                  // px on each side
+    float verticalFov = 1.0471976f;       // radians, of the visible part
+    float near = 0.05f;                   // m
+    float skyDepth = 1e4f;                // m; linear depths from here on are sky
+    glm::mat4 projection{1.0f};           // eye -> clip of the whole image
+    std::optional<scene::Camera> camera;  // empty: eye space is world space
+    std::vector<float> depth;             // linear, m; rows top to bottom
+    std::vector<glm::vec3> normals;       // eye space, unit, zero for sky; empty if the capture has none
 
     glm::uvec2 visible() const { return size - 2u * guard; }
-    size_t index(uint32_t x, uint32_t y) const { return size_t(y) * size.x + x; }       // whole image
+    size_t index(uint32_t x, uint32_t y) const { return size_t(y) * size.x + x; }  // whole image
     size_t visibleIndex(uint32_t x, uint32_t y) const { return index(x + guard.x, y + guard.y); }
     bool isSky(size_t i) const { return depth[i] >= skyDepth; }
     bool hasNormals() const { return !normals.empty(); }

@@ -37,7 +37,8 @@ struct Schedule {
     float target;
     explicit Schedule(const RayOptions& options)
         : first(std::max((std::min(options.minRays, options.maxRays) + kBatch - 1) / kBatch, 2u)),
-          last(std::max((options.maxRays + kBatch - 1) / kBatch, first)), target(options.targetError) {
+          last(std::max((options.maxRays + kBatch - 1) / kBatch, first)),
+          target(options.targetError) {
         if (target <= 0.0f) first = last;
     }
 };

@@ -19,9 +19,9 @@ struct Colors {
 };
 
 // Linear sRGB primaries and D65, as exact ratios of the standard's chromaticities; glm takes columns.
-const glm::dmat3 kXyzFromRgb = glm::transpose(glm::dmat3(10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0,
-                                                         2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0,
-                                                         1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0));
+const glm::dmat3 kXyzFromRgb =
+    glm::transpose(glm::dmat3(10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0, 2613072.0 / 12288897.0,
+        8788810.0 / 12288897.0, 887015.0 / 12288897.0, 1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0));
 const glm::dmat3 kRgbFromXyz = glm::inverse(kXyzFromRgb);
 const glm::dvec3 kWhite = kXyzFromRgb * glm::dvec3(1.0);
 
@@ -164,8 +164,10 @@ Plane flip(const std::array<Plane, 3>& reference, const std::array<Plane, 3>& te
     Plane out(reference[0].width, reference[0].height);
     for (size_t i = 0; i < out.pixels(); ++i) {
         const float distance = std::pow(hyab(a.lab[i], b.lab[i]), kColorExponent);
-        const float color = distance < knee ? kKneeValue / knee * distance : kKneeValue + (distance - knee) / (largest - knee) * (1.0f - kKneeValue);
-        const float feature = std::max(std::fabs(a.edges.values[i] - b.edges.values[i]), std::fabs(a.points.values[i] - b.points.values[i]));
+        const float color =
+            distance < knee ? kKneeValue / knee * distance : kKneeValue + (distance - knee) / (largest - knee) * (1.0f - kKneeValue);
+        const float feature =
+            std::max(std::fabs(a.edges.values[i] - b.edges.values[i]), std::fabs(a.points.values[i] - b.points.values[i]));
         out.values[i] = std::pow(color, 1.0f - std::pow(std::min(feature / std::sqrt(2.0f), 1.0f), kFeatureExponent));
     }
     return out;

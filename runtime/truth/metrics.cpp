@@ -11,10 +11,10 @@
 namespace obscura::truth {
 namespace {
 
-constexpr float kJump = 0.02f;      // depth discontinuity, fraction of the nearer depth
-constexpr int kReach = 8;           // px, extent of halo and thin regions
-constexpr int kThin = 4;            // px, thin surfaces are narrower
-constexpr float kBorder = 0.1f;     // of each side
+constexpr float kJump = 0.02f;   // depth discontinuity, fraction of the nearer depth
+constexpr int kReach = 8;        // px, extent of halo and thin regions
+constexpr int kThin = 4;         // px, thin surfaces are narrower
+constexpr float kBorder = 0.1f;  // of each side
 
 struct Maps {
     Plane picture, reference, adjusted;
@@ -108,7 +108,8 @@ Plane checked(const Plane& plane, const Mask& valid, const char* which) {
 
 Maps mapsOf(const Plane& visibility, const Plane& reference, const Mask& valid, bool scattered = false) {
     if (visibility.width != reference.width || visibility.height != reference.height)
-        throw scene::Error(fmt::format("the picture is {} x {} pixels, its reference {} x {}", visibility.width, visibility.height, reference.width, reference.height));
+        throw scene::Error(fmt::format("the picture is {} x {} pixels, its reference {} x {}", visibility.width, visibility.height,
+            reference.width, reference.height));
     if (valid.size() != visibility.pixels())
         throw scene::Error(fmt::format("a mask of {} pixels for a picture of {} x {}", valid.size(), visibility.width, visibility.height));
     Maps maps;
@@ -295,8 +296,8 @@ Plane ssimMap(const Plane& a, const Plane& b) {
             }
             for (double& v : s) v /= total;
             const double varianceA = s[2] - s[0] * s[0], varianceB = s[3] - s[1] * s[1], covariance = s[4] - s[0] * s[1];
-            out.at(uint32_t(x), uint32_t(y)) = float((2.0 * s[0] * s[1] + kC1) * (2.0 * covariance + kC2) /
-                                                     ((s[0] * s[0] + s[1] * s[1] + kC1) * (varianceA + varianceB + kC2)));
+            out.at(uint32_t(x), uint32_t(y)) = float(
+                (2.0 * s[0] * s[1] + kC1) * (2.0 * covariance + kC2) / ((s[0] * s[0] + s[1] * s[1] + kC1) * (varianceA + varianceB + kC2)));
         }
     return out;
 }

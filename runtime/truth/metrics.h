@@ -12,23 +12,23 @@ namespace obscura::truth {
 using Mask = std::vector<uint8_t>;  // one per pixel, 0 or 1
 
 struct Errors {
-    float bias = 0.0f;   // mean (A - R)
-    float eA = 0.0f;     // mean |A - R|
-    float e5 = 0.0f;     // share of pixels with |A - R| < 0.05
+    float bias = 0.0f;  // mean (A - R)
+    float eA = 0.0f;    // mean |A - R|
+    float e5 = 0.0f;    // share of pixels with |A - R| < 0.05
     float rmse = 0.0f;
-    float p99 = 0.0f;    // 99th percentile of |A - R|
+    float p99 = 0.0f;  // 99th percentile of |A - R|
 };
 
 // Over valid pixels (empty mask: all), without clamping. Fast enough for every frame.
 Errors errors(const Plane& visibility, const Plane& reference, const Mask& valid = {});
 
 struct Metrics {
-    size_t pixels = 0;   // evaluated; if 0, all else is 0
+    size_t pixels = 0;  // evaluated; if 0, all else is 0
     Errors raw;
-    float gamma = 1.0f;  // g* = argmin RMSE(A^g, R), in [1/8, 8]
-    Errors adjusted;     // of A^g*: errors that a "power" parameter cannot correct
-    bool perceptual = true;  // false: SSIM and FLIP are unknown, since the pixels have no neighbours (Regions::scattered)
-    float ssim = 0.0f;   // 11x11 Gaussian, sigma 1.5, C1 = 0.01^2, C2 = 0.03^2, mean over the region
+    float gamma = 1.0f;               // g* = argmin RMSE(A^g, R), in [1/8, 8]
+    Errors adjusted;                  // of A^g*: errors that a "power" parameter cannot correct
+    bool perceptual = true;           // false: SSIM and FLIP are unknown, since the pixels have no neighbours (Regions::scattered)
+    float ssim = 0.0f;                // 11x11 Gaussian, sigma 1.5, C1 = 0.01^2, C2 = 0.03^2, mean over the region
     float flipMean = 0.0f;            // flip.h
     float flipWeightedMedian = 0.0f;  // the value v such that the pixels below v hold half of the summed error
 };

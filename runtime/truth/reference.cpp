@@ -16,7 +16,8 @@ constexpr const char* kKinds[] = {"exponential", "linear", "quadratic", "wendlan
 
 std::string nameOf(const ao::Falloff& falloff) {
     const char* kind = kKinds[size_t(falloff.kind)];
-    return falloff.kind == ao::FalloffKind::ramp ? fmt::format("{}:{}:{}", kind, falloff.length, falloff.end) : fmt::format("{}:{}", kind, falloff.length);
+    return falloff.kind == ao::FalloffKind::ramp ? fmt::format("{}:{}:{}", kind, falloff.length, falloff.end)
+                                                 : fmt::format("{}:{}", kind, falloff.length);
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ RayFalloff rayFalloff(const ao::Falloff& falloff) {
 RayFalloff rayFalloff(const std::string& text) {
     ao::Falloff falloff;
     if (!ao::parseFalloff(text.c_str(), falloff))
-        throw scene::Error(fmt::format("falloff \"{}\": write exponential:L, linear:R, quadratic:R, wendland:R, constant:R or ramp:A:B, lengths in metres", text));
+        throw scene::Error(fmt::format(
+            "falloff \"{}\": write exponential:L, linear:R, quadratic:R, wendland:R, constant:R or ramp:A:B, lengths in metres", text));
     return rayFalloff(falloff);
 }
 

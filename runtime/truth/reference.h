@@ -14,10 +14,10 @@ namespace obscura::truth {
 
 // A falloff as a function. `rho` maps metres to [0,1], is pure, and is called from several threads.
 struct RayFalloff {
-    std::string name;                  // "quadratic:2": name of channels; part of the cache key, with samples of rho
+    std::string name;  // "quadratic:2": name of channels; part of the cache key, with samples of rho
     std::function<float(float)> rho;
-    float reach = 1.0f;                // metres; rays end here. Infinity is allowed in the world reference only
-    bool hard = false;                 // rho is 1 up to reach: any hit suffices, its distance is not needed
+    float reach = 1.0f;  // metres; rays end here. Infinity is allowed in the world reference only
+    bool hard = false;   // rho is 1 up to reach: any hit suffices, its distance is not needed
 };
 // The library's falloff. An exponential is followed to 1/65536, not only to the 1/256 at which methods stop.
 RayFalloff rayFalloff(const ao::Falloff& falloff);
@@ -28,9 +28,9 @@ RayFalloff rayFalloff(const std::string& text);
 // standard error. A pixel stops when the standard error of every falloff is at most `targetError`, or at maxRays. minRays == maxRays
 // requests a fixed count.
 struct RayOptions {
-    uint32_t minRays = 128;            // rounded up to whole batches, at least two
+    uint32_t minRays = 128;  // rounded up to whole batches, at least two
     uint32_t maxRays = 4096;
-    float targetError = 0.005f;        // of obscurance; 0: always maxRays
+    float targetError = 0.005f;  // of obscurance; 0: always maxRays
     uint32_t seed = 1;
     // Only every stride-th visible pixel in x and y; the others have 0 rays and obscurance 0. For tests and previews.
     uint32_t stride = 1;
@@ -43,19 +43,19 @@ inline constexpr uint32_t kBatch = 16;
 // The result, for the visible part. Sky has obscurance 0, error 0 and no rays.
 struct Reference {
     struct Channel {
-        std::string name;              // of the falloff
+        std::string name;  // of the falloff
         Plane obscurance;
-        Plane error;                   // estimated standard error of the mean; conservative for few rays
+        Plane error;  // estimated standard error of the mean; conservative for few rays
     };
-    std::vector<Channel> channels;     // one per falloff, in the order given, from the same rays
-    Plane rays;                        // count per pixel
+    std::vector<Channel> channels;  // one per falloff, in the order given, from the same rays
+    Plane rays;                     // count per pixel
     uint64_t totalRays = 0;
-    double seconds = 0.0;              // wall time of casting
+    double seconds = 0.0;  // wall time of casting
     bool fromCache = false;
 
     float meanError(size_t channel = 0) const;  // over the pixels with rays
     float maxError(size_t channel = 0) const;
-    size_t overTarget(float targetError) const; // pixels with a larger error in any channel: they reached maxRays
+    size_t overTarget(float targetError) const;  // pixels with a larger error in any channel: they reached maxRays
 };
 
 }  // namespace obscura::truth

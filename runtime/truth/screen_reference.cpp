@@ -25,14 +25,15 @@ std::vector<float> tabulate(std::span<const RayFalloff> falloffs) {
     std::vector<float> table;
     for (const RayFalloff& falloff : falloffs) table.push_back(falloff.reach);
     for (const RayFalloff& falloff : falloffs)
-        for (uint32_t i = 0; i < kTableSize; ++i) table.push_back(falloff.hard ? 1.0f : falloff.rho(falloff.reach * float(i) / float(kTableSize - 1)));
+        for (uint32_t i = 0; i < kTableSize; ++i)
+            table.push_back(falloff.hard ? 1.0f : falloff.rho(falloff.reach * float(i) / float(kTableSize - 1)));
     return table;
 }
 
 struct Pending {
-    uint32_t pixel;                    // index in the visible part
+    uint32_t pixel;  // index in the visible part
     shared::MarchReceiver receiver;
-    std::vector<Sums> sums;            // one per falloff
+    std::vector<Sums> sums;  // one per falloff
 };
 
 std::vector<Pending> receiversOf(const CapturedFrame& frame, const ScreenOptions& options, size_t falloffs) {
@@ -70,7 +71,8 @@ struct ScreenReference::Impl {
     explicit Impl(gpu::Device& d) : device(d), graph(d), executor(d) { executor.setTiming(false); }
 
     void expect(gpu::Status status, const char* doing) const {
-        if (status != gpu::Status::ok) throw scene::Error(fmt::format("the screen reference failed while {}: {}", doing, gpu::name(status)));
+        if (status != gpu::Status::ok)
+            throw scene::Error(fmt::format("the screen reference failed while {}: {}", doing, gpu::name(status)));
     }
 
     void upload(const CapturedFrame& frame, const std::vector<float>& tables, size_t sumBytes) {
@@ -81,12 +83,12 @@ struct ScreenReference::Impl {
         const uint64_t tableBytes = tables.size() * sizeof(float);
         if (!table || table.bytes() < tableBytes)
             expect(gpu::Buffer::create(device, tableBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                       gpu::Memory::device, "truth falloffs", table),
-                   "creating its tables");
+                       gpu::Memory::device, "truth falloffs", table),
+                "creating its tables");
         expect(gpu::upload(device, table, std::as_bytes(std::span(tables))), "uploading its tables");
         if (!sums || sums.bytes() < sumBytes)
             expect(gpu::Buffer::create(device, sumBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback, "truth sums", sums),
-                   "creating its result buffer");
+                "creating its result buffer");
     }
 
     void run(const shared::View& view, std::span<const shared::MarchReceiver> receivers, const shared::MarchConstants& constants) {
@@ -100,10 +102,15 @@ struct ScreenReference::Impl {
         external.layout = external.layoutAfter = VK_IMAGE_LAYOUT_GENERAL;
         const graph::ImageId z = graph.import("truth depth", external);
         const graph::BufferId result = graph.import("truth sums", sums, graph::Graph::Shared::written);
-        graph.pass("truth.march", march).read(graph.upload("truth view", view)).read(z)
+        graph.pass("truth.march", march)
+            .read(graph.upload("truth view", view))
+            .read(z)
             .read(graph.upload("truth receivers", receivers.data(), receivers.size_bytes()))
-            .read(graph.import("truth falloffs", table, graph::Graph::Shared::constant)).write(result)
-            .constants(constants).keep().dispatch(uint32_t(receivers.size()) * kBatch);
+            .read(graph.import("truth falloffs", table, graph::Graph::Shared::constant))
+            .write(result)
+            .constants(constants)
+            .keep()
+            .dispatch(uint32_t(receivers.size()) * kBatch);
         graph.pass("truth.readback").use(result, graph::Access::hostRead).keep().record([](const graph::PassContext&) {});
         gpu::Status recorded = gpu::Status::ok;
         expect(device.runNow([&](VkCommandBuffer cmd) { recorded = executor.execute(graph, cmd); }), "marching rays");
@@ -121,15 +128,16 @@ ScreenReference::~ScreenReference() {
 
 Reference ScreenReference::trace(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const ScreenOptions& options) {
     if (!frame.hasNormals()) throw scene::Error("the frame has no normals; capture them, or reconstruct them from depth");
-    if (falloffs.empty() || falloffs.size() > kMaxFalloffs) throw scene::Error(fmt::format("{} falloffs; the screen reference takes 1 to {} at a time", falloffs.size(), kMaxFalloffs));
-    if (!(options.thickness > 0.0f))
-        throw scene::Error(fmt::format("the thickness is {} m; it must be above 0", options.thickness));
+    if (falloffs.empty() || falloffs.size() > kMaxFalloffs)
+        throw scene::Error(fmt::format("{} falloffs; the screen reference takes 1 to {} at a time", falloffs.size(), kMaxFalloffs));
+    if (!(options.thickness > 0.0f)) throw scene::Error(fmt::format("the thickness is {} m; it must be above 0", options.thickness));
     float length = 0.0f;
     for (const RayFalloff& falloff : falloffs) length = std::max(length, falloff.reach);
     if (!std::isfinite(length)) throw scene::Error("the screen reference needs falloffs of finite reach; use the world reference");
     Impl& impl = *m_impl;
     if (frame.size.x > impl.device.caps().maxImageSize || frame.size.y > impl.device.caps().maxImageSize)
-        throw scene::Error(fmt::format("{} x {} pixels are more than this device's {} a side", frame.size.x, frame.size.y, impl.device.caps().maxImageSize));
+        throw scene::Error(fmt::format(
+            "{} x {} pixels are more than this device's {} a side", frame.size.x, frame.size.y, impl.device.caps().maxImageSize));
 
     const auto start = std::chrono::steady_clock::now();
     const glm::uvec2 part = frame.visible();
@@ -156,8 +164,7 @@ Reference ScreenReference::trace(const CapturedFrame& frame, std::span<const Ray
             batch.clear();
             for (const Pending* pending : active) batch.push_back(pending->receiver);
             shared::MarchConstants constants{uint32_t(batch.size()), point, points, uint32_t(falloffs.size()), length,
-                                             std::min(options.thickness, 1e30f), frame.near,
-                                             options.tolerance / view.pixelsPerMetre, kTableSize, {}};
+                std::min(options.thickness, 1e30f), frame.near, options.tolerance / view.pixelsPerMetre, kTableSize, {}};
             impl.run(view, batch, constants);
             point += points;
 

@@ -9,10 +9,10 @@ namespace obscura::truth {
 
 namespace {
 
-constexpr float kDepthTolerance = 0.02f;   // fraction of the depth, for stayed()
-constexpr float kPlaneTolerance = 0.05f;   // fraction of a pixel's width on the surface
-constexpr float kNormalTolerance = 0.906f; // cos 25 degrees
-constexpr float kChanged = 0.1f;           // visibility, for lag()
+constexpr float kDepthTolerance = 0.02f;    // fraction of the depth, for stayed()
+constexpr float kPlaneTolerance = 0.05f;    // fraction of a pixel's width on the surface
+constexpr float kNormalTolerance = 0.906f;  // cos 25 degrees
+constexpr float kChanged = 0.1f;            // visibility, for lag()
 
 float bilinear(const Plane& plane, glm::vec2 at) {
     const glm::vec2 corner = glm::floor(at), part = at - corner;
@@ -51,11 +51,12 @@ Correspondence correspond(const CapturedFrame& now, const CapturedFrame& before,
     const shared::View lens = now.view(), lensBefore = before.view();
     const auto onRay = [](const shared::View& view, glm::vec2 pixelCentre, float depth) {
         const float scale = view.orthographic > 0.5f ? 1.0f : depth;
-        return glm::vec3((pixelCentre.x * view.unproject.x + view.unproject.z) * scale, (pixelCentre.y * view.unproject.y + view.unproject.w) * scale, -depth);
+        return glm::vec3((pixelCentre.x * view.unproject.x + view.unproject.z) * scale,
+            (pixelCentre.y * view.unproject.y + view.unproject.w) * scale, -depth);
     };
     const glm::vec2 guard = glm::vec2(now.guard) + 0.5f;
-    Correspondence way{visible.x, visible.y, std::vector<glm::vec2>(size_t(visible.x) * visible.y, glm::vec2(-1e9f)), Mask(size_t(visible.x) * visible.y),
-                       Mask(size_t(visible.x) * visible.y)};
+    Correspondence way{visible.x, visible.y, std::vector<glm::vec2>(size_t(visible.x) * visible.y, glm::vec2(-1e9f)),
+        Mask(size_t(visible.x) * visible.y), Mask(size_t(visible.x) * visible.y)};
     for (uint32_t y = 0; y < visible.y; ++y)
         for (uint32_t x = 0; x < visible.x; ++x) {
             const size_t source = now.visibleIndex(x, y), target = size_t(y) * visible.x + x;
@@ -192,7 +193,8 @@ Lag lag(const Plane& before, std::span<const Plane> after, const Plane& referenc
         if (away(after[t]) > 0.1 * step) result.t90 = uint32_t(t) + 2;
         double excess = 0.0;
         for (const size_t i : lighter)
-            excess += std::max(0.0f, std::fabs(after[t].values[i] - referenceAfter.values[i]) - std::fabs(settled.values[i] - referenceAfter.values[i]));
+            excess += std::max(
+                0.0f, std::fabs(after[t].values[i] - referenceAfter.values[i]) - std::fabs(settled.values[i] - referenceAfter.values[i]));
         if (!lighter.empty()) result.ghost += float(excess / double(lighter.size()));
     }
     return result;

@@ -10,11 +10,11 @@ namespace obscura::truth {
 
 // Last frame's position of every visible pixel's surface.
 struct Correspondence {
-    uint32_t width = 0, height = 0;   // visible part
-    std::vector<glm::vec2> at;        // px of the visible part, (0, 0) is the centre of the upper left pixel
-    Mask same;                        // 1: all pixels around `at` showed that surface
-    Mask disoccluded;                 // 1: none of them did, or `at` is outside the visible part
-    float share() const;              // fraction of the pixels that are not sky with `same`
+    uint32_t width = 0, height = 0;  // visible part
+    std::vector<glm::vec2> at;       // px of the visible part, (0, 0) is the centre of the upper left pixel
+    Mask same;                       // 1: all pixels around `at` showed that surface
+    Mask disoccluded;                // 1: none of them did, or `at` is outside the visible part
+    float share() const;             // fraction of the pixels that are not sky with `same`
 };
 
 // `motion` as render::Outputs::motion: px from this frame's position to last frame's, whole image. Last frame's pixel shows the same
@@ -36,8 +36,8 @@ struct Change {
     float referenceDifference = 0.0f;  // D_R: of the reference, since true obscurance changes too: mean of sqrt(3x3 mean of (squared
                                        // change - its variance))
     float excess() const { return difference - referenceDifference; }  // F
-    float flickerOfError = 0.0f;       // F_e: root mean square of e_t(p) - e_{t-1}(p - v), e = A - R, minus the variance of R
-    float referenceFlicker = 0.0f;     // F_R: the same of R alone: F_e of an image that never changes
+    float flickerOfError = 0.0f;    // F_e: root mean square of e_t(p) - e_{t-1}(p - v), e = A - R, minus the variance of R
+    float referenceFlicker = 0.0f;  // F_R: the same of R alone: F_e of an image that never changes
 };
 Change change(const Correspondence& way, const Plane& now, const Plane& before, const Traced& referenceNow, const Traced& referenceBefore);
 
@@ -46,7 +46,9 @@ class StaticNoise {
 public:
     void add(const Plane& visibility);
     size_t frames() const { return m_frames; }
-    struct Result { float mean = 0.0f, p99 = 0.0f; };  // of the deviations, over valid pixels
+    struct Result {
+        float mean = 0.0f, p99 = 0.0f;
+    };  // of the deviations, over valid pixels
     Result over(const Mask& valid) const;
 
 private:
@@ -59,8 +61,8 @@ private:
 // stayed.
 struct Lag {
     size_t pixels = 0;
-    uint32_t t90 = 0;      // frames until the distance to the settled image stays within 10 % of the one of `before`; 1: the first frame
-    float ghost = 0.0f;    // G: sum over frames of the mean excess of |A-R| over its settled value, where the reference became lighter
+    uint32_t t90 = 0;    // frames until the distance to the settled image stays within 10 % of the one of `before`; 1: the first frame
+    float ghost = 0.0f;  // G: sum over frames of the mean excess of |A-R| over its settled value, where the reference became lighter
 };
 Lag lag(const Plane& before, std::span<const Plane> after, const Plane& referenceBefore, const Plane& referenceAfter, const Mask& stayed);
 

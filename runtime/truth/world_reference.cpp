@@ -67,7 +67,8 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 void passMaskedTexels(const RTCFilterFunctionNArguments* args) {
     const auto& mask = *static_cast<const AlphaMask*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i)
-        if (args->valid[i] == -1 && mask.open(RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)))
+        if (args->valid[i] == -1 &&
+            mask.open(RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)))
             args->valid[i] = 0;
 }
 
@@ -157,16 +158,19 @@ struct WorldReference::Impl {
     void checkEmbree(const char* doing) const {
         const RTCError error = rtcGetDeviceError(device);
         if (error != RTC_ERROR_NONE)
-            throw scene::Error(fmt::format("Embree failed while {} ({})", doing, error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : fmt::format("error {}", int(error))));
+            throw scene::Error(fmt::format("Embree failed while {} ({})", doing,
+                error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : fmt::format("error {}", int(error))));
     }
 
     void add(const scene::PosedPrimitive& posed, bool masked) {
         const scene::Primitive& primitive = *posed.primitive;
         for (const glm::vec3& p : posed.positions)
             if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-                throw scene::Error(fmt::format("{}: node {} has a posed position that is not finite; check its animation", posed.model->name, posed.node));
+                throw scene::Error(
+                    fmt::format("{}: node {} has a posed position that is not finite; check its animation", posed.model->name, posed.node));
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), posed.positions.size());
+        void* vertices =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), posed.positions.size());
         void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, primitive.indices.size() / 3);
         if (vertices && indices) {
             std::memcpy(vertices, posed.positions.data(), posed.positions.size() * sizeof(glm::vec3));
@@ -186,7 +190,7 @@ struct WorldReference::Impl {
 
     // Traces one receiver; returns the number of rays.
     uint32_t traceReceiver(Caster& caster, const Receiver& receiver, size_t index, std::span<const RayFalloff> falloffs,
-                           const WorldOptions& options, const Schedule& schedule, std::vector<Sums>& sums, Reference& out) const {
+        const WorldOptions& options, const Schedule& schedule, std::vector<Sums>& sums, Reference& out) const {
         const Basis basis(receiver.normal);
         const glm::vec3 a = glm::abs(receiver.position);
         const float offset = std::max(options.offset * receiver.scale, 1e-6f * std::max(a.x, std::max(a.y, a.z)));
@@ -198,7 +202,8 @@ struct WorldReference::Impl {
         uint32_t point = 0;
         for (uint32_t until = schedule.first;; until = std::min(point + schedule.step, schedule.last)) {
             for (; point < until; ++point) {
-                for (uint32_t s = 0; s < kBatch; ++s) directions[s] = basis.cosine(shared::rayU(point, s, seed), shared::rayV(point, s, seed));
+                for (uint32_t s = 0; s < kBatch; ++s)
+                    directions[s] = basis.cosine(shared::rayU(point, s, seed), shared::rayV(point, s, seed));
                 caster.cast(origin, directions, distances);
                 for (uint32_t s = 0; s < kBatch; ++s)
                     for (size_t f = 0; distances[s] < kEscaped && f < falloffs.size(); ++f)
@@ -218,7 +223,8 @@ struct WorldReference::Impl {
     }
 };
 
-WorldReference::WorldReference(std::span<const scene::PosedPrimitive> primitives, const WorldGeometry& geometry) : m_impl(std::make_unique<Impl>()) {
+WorldReference::WorldReference(std::span<const scene::PosedPrimitive> primitives, const WorldGeometry& geometry)
+    : m_impl(std::make_unique<Impl>()) {
     const Clock::time_point start = Clock::now();
     Impl& impl = *m_impl;
     impl.device = rtcNewDevice(nullptr);
@@ -229,7 +235,9 @@ WorldReference::WorldReference(std::span<const scene::PosedPrimitive> primitives
     for (const scene::PosedPrimitive& posed : primitives) {
         const scene::AlphaMode mode = posed.model->materials[size_t(posed.primitive->material)].alphaMode;
         const bool masked = mode == scene::AlphaMode::mask;
-        if (posed.primitive->indices.empty() || (masked && geometry.skipMasked) || (mode == scene::AlphaMode::blend && geometry.skipBlended)) continue;
+        if (posed.primitive->indices.empty() || (masked && geometry.skipMasked) ||
+            (mode == scene::AlphaMode::blend && geometry.skipBlended))
+            continue;
         impl.add(posed, masked);
     }
     rtcCommitScene(impl.scene);
@@ -256,12 +264,14 @@ Reference WorldReference::trace(const CapturedFrame& frame, std::span<const RayF
             const glm::vec3 eye = frame.eyePosition(x + frame.guard.x, y + frame.guard.y);
             const glm::vec3 towards = view.orthographic > 0.5f ? glm::vec3(0, 0, 1) : -eye;
             const glm::vec3 n = glm::dot(frame.normals[at], towards) < 0.0f ? -frame.normals[at] : frame.normals[at];
-            receivers[size_t(y) * part.x + x] = {glm::vec3(worldFromEye * glm::vec4(eye, 1.0f)), glm::normalize(rotation * n), glm::length(eye), glm::normalize(rotation * towards)};
+            receivers[size_t(y) * part.x + x] = {glm::vec3(worldFromEye * glm::vec4(eye, 1.0f)), glm::normalize(rotation * n),
+                glm::length(eye), glm::normalize(rotation * towards)};
         }
     return trace(receivers, falloffs, options, part.x);
 }
 
-Reference WorldReference::trace(std::span<const Receiver> receivers, std::span<const RayFalloff> falloffs, const WorldOptions& options, uint32_t width) const {
+Reference WorldReference::trace(
+    std::span<const Receiver> receivers, std::span<const RayFalloff> falloffs, const WorldOptions& options, uint32_t width) const {
     if (falloffs.empty()) throw scene::Error("the world reference needs at least one falloff");
     if (width == 0) width = uint32_t(receivers.size());
     const Clock::time_point start = Clock::now();
@@ -302,7 +312,9 @@ Reference WorldReference::trace(std::span<const Receiver> receivers, std::span<c
         struct StopUnlessDone {
             std::atomic<bool>& stop;
             bool done = false;
-            ~StopUnlessDone() { if (!done) stop = true; }
+            ~StopUnlessDone() {
+                if (!done) stop = true;
+            }
         } guard{stop};
         for (size_t i = 1; i < std::min(wanted, std::max<size_t>(blocks, 1)); ++i) helpers.emplace_back([&] { work(false); });
         work(true);

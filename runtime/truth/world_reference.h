@@ -12,13 +12,13 @@
 namespace obscura::truth {
 
 struct WorldGeometry {
-    bool skipMasked = false;   // no alpha-masked primitives (as in the stored references of real scenes)
-    bool skipBlended = true;   // no alpha-blended primitives (as in the G-buffer)
+    bool skipMasked = false;  // no alpha-masked primitives (as in the stored references of real scenes)
+    bool skipBlended = true;  // no alpha-blended primitives (as in the G-buffer)
 };
 
 struct WorldOptions : RayOptions {
-    uint32_t threads = 0;      // 0: one per logical processor. The result is the same to the bit for any number
-    bool packets = true;       // packets of 8 rays; single rays give the same result up to rounding
+    uint32_t threads = 0;  // 0: one per logical processor. The result is the same to the bit for any number
+    bool packets = true;   // packets of 8 rays; single rays give the same result up to rounding
     // Rays start at the receiver plus this fraction of the camera distance along the normal and towards the camera: more than the rounding
     // of a float position, less than visible. Since nothing is between a visible point and the camera, a point in the corner of two walls
     // is moved off both.
@@ -45,7 +45,7 @@ public:
     Reference trace(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const WorldOptions& options = {}) const;
     // Any receivers. The planes are `width` pixels wide, receivers row by row; 0: one row.
     Reference trace(std::span<const Receiver> receivers, std::span<const RayFalloff> falloffs, const WorldOptions& options = {},
-                    uint32_t width = 0) const;
+        uint32_t width = 0) const;
 
     size_t triangles() const;
     double buildSeconds() const;

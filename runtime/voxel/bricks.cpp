@@ -61,9 +61,7 @@ const Brick* BrickSet::find(const glm::ivec3& place) const {
     return index ? &m_bricks[index - 1] : nullptr;
 }
 
-void BrickSet::set(const glm::ivec3& cell) {
-    at(brickOf(cell)).set(cell.x & 7, cell.y & 7, cell.z & 7);
-}
+void BrickSet::set(const glm::ivec3& cell) { at(brickOf(cell)).set(cell.x & 7, cell.y & 7, cell.z & 7); }
 
 bool BrickSet::test(const glm::ivec3& cell) const {
     const Brick* brick = find(brickOf(cell));

@@ -52,7 +52,7 @@ private:
     void grow();
     std::vector<uint64_t> m_keys;
     std::vector<Brick> m_bricks;
-    std::vector<uint32_t> m_slots;        // index + 1, 0 where free; a power of two, at most half full
+    std::vector<uint32_t> m_slots;  // index + 1, 0 where free; a power of two, at most half full
 };
 
 }  // namespace obscura::voxel

@@ -31,8 +31,8 @@ bool Objects::moved(Object& object, const scene::Pose& pose, float time) const {
     return moved;
 }
 
-void Objects::rasteriseObject(Object& object, const scene::Pose& posed, double cellSize, const Picked& picked, Shell shell,
-                              Posed& scratch) {
+void Objects::rasteriseObject(
+    Object& object, const scene::Pose& posed, double cellSize, const Picked& picked, Shell shell, Posed& scratch) {
     object.before.swap(object.bricks);
     object.bricks.clear();
     pose(*object.instance, object.part, posed, picked, scratch);
@@ -43,7 +43,7 @@ void Objects::rasteriseObject(Object& object, const scene::Pose& posed, double c
         const RasterReport report = rasterise(scratch.triangles(), cellSize, object.bricks, options);
         if (report.notFinite + report.tooFar > 0)
             object.error = fmt::format("{} of {} triangles are skipped: not finite, or more than 2^23 cells from the origin",
-                                           report.notFinite + report.tooFar, scratch.indices.size() / 3);
+                report.notFinite + report.tooFar, scratch.indices.size() / 3);
     } catch (const scene::Error& failure) {
         object.bricks.clear();
         object.error = failure.what();
@@ -81,9 +81,8 @@ void Objects::end(float time, double cellSize, const Picked& picked, Shell shell
     for (auto& [key, object] : m_objects)
         if (moved(object, poses[key.first], time)) jobs.push_back({&object, &poses[key.first]});
     tbb::enumerable_thread_specific<Posed> scratch;
-    tbb::parallel_for(size_t(0), jobs.size(), [&](size_t i) {
-        rasteriseObject(*jobs[i].first, *jobs[i].second, cellSize, picked, shell, scratch.local());
-    });
+    tbb::parallel_for(size_t(0), jobs.size(),
+        [&](size_t i) { rasteriseObject(*jobs[i].first, *jobs[i].second, cellSize, picked, shell, scratch.local()); });
     for (const auto& [object, posed] : jobs) {
         note(object->before);
         note(object->bricks);

@@ -24,7 +24,7 @@ public:
     // Adds the objects' cells of one brick to `out`.
     void compose(const glm::ivec3& place, Brick& out) const;
     size_t count() const { return m_objects.size(); }
-    size_t redone() const { return m_redone; }     // parts rasterised by the last end()
+    size_t redone() const { return m_redone; }  // parts rasterised by the last end()
     uint64_t cells() const;
     uint64_t bytes() const;
 
@@ -35,16 +35,16 @@ private:
         Part part;
         uint64_t round = 0;
         bool fresh = true;
-        glm::mat4 matrix{0.0f};                     // of `bricks`
+        glm::mat4 matrix{0.0f};  // of `bricks`
         float time = 0.0f;
         BrickSet bricks, before;
-        glm::ivec3 low{0}, high{-1};                // of `bricks`
+        glm::ivec3 low{0}, high{-1};  // of `bricks`
         std::string error;
         bool logged = false;
     };
     bool moved(Object& object, const scene::Pose& pose, float time) const;
-    static void rasteriseObject(Object& object, const scene::Pose& pose, double cellSize, const Picked& picked, Shell shell,
-                                Posed& scratch);
+    static void rasteriseObject(
+        Object& object, const scene::Pose& pose, double cellSize, const Picked& picked, Shell shell, Posed& scratch);
 
     std::map<std::pair<uint32_t, int>, Object> m_objects;  // by instance and node
     uint64_t m_round = 0;

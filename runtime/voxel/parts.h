@@ -17,7 +17,7 @@ struct Part {
 
 // Selects the primitives that are occluders. Blended ones are not, as in the G-buffer; parts without occluders are skipped.
 struct Picked {
-    bool masked = true;    // alpha-masked primitives are occluders, as if opaque
+    bool masked = true;  // alpha-masked primitives are occluders, as if opaque
     bool operator()(const scene::Model& model, const scene::Primitive& primitive) const;
 };
 std::vector<Part> partsOf(const scene::Instance& instance, const Picked& picked);

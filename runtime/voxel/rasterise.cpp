@@ -111,8 +111,14 @@ void drawTriangle(const glm::dvec3* p, bool thin, CellWriter& writer) {
     const glm::dvec3 n = glm::cross(q[1] - q[0], q[2] - q[0]), size = glm::abs(n);
     const double longest = double(std::max({span.x, span.y, span.z}));
     const bool flat = std::max({size.x, size.y, size.z}) > 1e-7 * longest * longest;
-    const int w = flat ? (size.z >= size.x && size.z >= size.y ? 2 : size.x >= size.y ? 0 : 1)
-                       : ((span.z >= span.x && span.z >= span.y ? 2 : span.x >= span.y ? 0 : 1) + 1) % 3;
+    const int w = flat ? (size.z >= size.x && size.z >= size.y ? 2
+                             : size.x >= size.y                ? 0
+                                                               : 1)
+                       : ((span.z >= span.x && span.z >= span.y ? 2
+                              : span.x >= span.y                ? 0
+                                                                : 1) +
+                             1) %
+                             3;
     const int u = (w + 2) % 3, v = (w + 1) % 3;
     Edge uv[3], uw[3], vw[3];
     for (int i = 0; i < 3; ++i) uv[i] = edge(q, i, u, v, thin), uw[i] = edge(q, i, u, w, thin), vw[i] = edge(q, i, v, w, thin);
@@ -168,9 +174,10 @@ RasterReport drawRange(const Triangles& triangles, double inverse, bool thin, si
 }
 
 [[noreturn]] void refuse(double bricks, double cellSize, size_t most) {
-    throw scene::Error(fmt::format("voxels: the surfaces need about {:.3g} bricks of 8x8x8 cells at {:.3g} m per cell; the limit is {}: "
-                                   "use cells of {:.2g} m or more",
-                                   bricks, cellSize, most, 1.1 * cellSize * std::sqrt(bricks / double(most))));
+    throw scene::Error(
+        fmt::format("voxels: the surfaces need about {:.3g} bricks of 8x8x8 cells at {:.3g} m per cell; the limit is {}: "
+                    "use cells of {:.2g} m or more",
+            bricks, cellSize, most, 1.1 * cellSize * std::sqrt(bricks / double(most))));
 }
 
 }  // namespace
@@ -215,17 +222,21 @@ RasterReport rasterise(const Triangles& triangles, double cellSize, BrickSet& in
     const size_t limit = 2 * options.mostBricks;  // several threads can have the same brick
     std::atomic<size_t> taken{into.size()};
     RasterReport report;
-    struct ThreadResult { BrickSet bricks; RasterReport report; };
+    struct ThreadResult {
+        BrickSet bricks;
+        RasterReport report;
+    };
     tbb::enumerable_thread_specific<ThreadResult> results;
     for (size_t first = 0; first < count; first += kRound) {
         if (options.progress) options.progress(float(first) / float(count));
         if (count <= kBlock) {
             report += drawRange(triangles, inverse, thin, 0, count, CellWriter(into, taken, limit));
         } else {
-            tbb::parallel_for(tbb::blocked_range<size_t>(first, std::min(count, first + kRound), kBlock), [&](const tbb::blocked_range<size_t>& range) {
-                ThreadResult& own = results.local();
-                own.report += drawRange(triangles, inverse, thin, range.begin(), range.end(), CellWriter(own.bricks, taken, limit));
-            });
+            tbb::parallel_for(
+                tbb::blocked_range<size_t>(first, std::min(count, first + kRound), kBlock), [&](const tbb::blocked_range<size_t>& range) {
+                    ThreadResult& own = results.local();
+                    own.report += drawRange(triangles, inverse, thin, range.begin(), range.end(), CellWriter(own.bricks, taken, limit));
+                });
             for (ThreadResult& result : results) {
                 into.merge(result.bricks);
                 result.bricks.clear();

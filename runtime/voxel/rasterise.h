@@ -10,23 +10,23 @@
 
 namespace obscura::voxel {
 
-struct Triangles {                          // world space, metres
+struct Triangles {  // world space, metres
     std::span<const glm::vec3> positions;
-    std::span<const uint32_t> indices;      // three per triangle, each < positions.size()
+    std::span<const uint32_t> indices;  // three per triangle, each < positions.size()
 };
 
 enum class Shell : uint8_t { conservative, thin };
 
 struct RasterOptions {
     Shell shell = Shell::conservative;
-    size_t mostBricks = size_t(1) << 22;    // limit; 2^22 bricks are 256 MiB of bits
-    std::function<void(float)> progress;    // 0 to 1, every 2^20 triangles, from the calling thread
+    size_t mostBricks = size_t(1) << 22;  // limit; 2^22 bricks are 256 MiB of bits
+    std::function<void(float)> progress;  // 0 to 1, every 2^20 triangles, from the calling thread
 };
 
 struct RasterReport {
-    uint64_t triangles = 0;                 // rasterised; degenerate ones included, as segments or points
-    uint64_t notFinite = 0;                 // skipped: a vertex is NaN or infinite
-    uint64_t tooFar = 0;                    // skipped: more than kMostCell cells from the origin
+    uint64_t triangles = 0;  // rasterised; degenerate ones included, as segments or points
+    uint64_t notFinite = 0;  // skipped: a vertex is NaN or infinite
+    uint64_t tooFar = 0;     // skipped: more than kMostCell cells from the origin
     RasterReport& operator+=(const RasterReport& other);
 };
 

@@ -83,7 +83,8 @@ std::string Resting::measure(const scene::World& world, float time, const Option
         // One brick at either end is reserved: the origin snaps to bricks.
         m_cellSize = std::clamp(std::max({size.x, size.y, size.z}) / double(options.cells - 2 * kBrickSide), kSmallestCell, kLargestCell);
         const double affordable = m_cellSize * std::sqrt(bricksOf(surface, m_cellSize) / (0.5 * double(options.mostBricks)));
-        const glm::dvec3 far = m_bounds.empty ? glm::dvec3(0.0) : glm::max(glm::abs(glm::dvec3(m_bounds.min)), glm::abs(glm::dvec3(m_bounds.max)));
+        const glm::dvec3 far =
+            m_bounds.empty ? glm::dvec3(0.0) : glm::max(glm::abs(glm::dvec3(m_bounds.min)), glm::abs(glm::dvec3(m_bounds.max)));
         const double countable = 1.01 * std::max({far.x, far.y, far.z}) / double(kMostCell);
         if (const double least = std::max(affordable, countable); least > m_cellSize) {
             options.say(fmt::format("voxels: the world is too large for cells of {:.3g} m; using {:.3g} m", m_cellSize, least));

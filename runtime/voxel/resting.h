@@ -22,15 +22,15 @@ struct RestingFacts {
 class Resting {
 public:
     struct Options {
-        uint32_t cells = 256;                                // per side of the window
-        double cellSize = 0.0;                               // metres; 0: chosen from the world
+        uint32_t cells = 256;   // per side of the window
+        double cellSize = 0.0;  // metres; 0: chosen from the world
         Picked picked;
         Shell shell = Shell::conservative;
-        bool bits = true;                                    // false: computes bounds and cell size only
-        std::filesystem::path cache;                         // folder; empty: no cache
+        bool bits = true;             // false: computes bounds and cell size only
+        std::filesystem::path cache;  // folder; empty: no cache
         size_t mostBricks = RasterOptions().mostBricks;
-        std::function<void(const std::string&)> say;         // log lines, from the thread that calls build()
-        std::atomic<float>* progress = nullptr;              // 0 to 1 while it builds
+        std::function<void(const std::string&)> say;  // log lines, from the thread that calls build()
+        std::atomic<float>* progress = nullptr;       // 0 to 1 while it builds
     };
 
     // False if the static geometry must be built again. An instance that was moved counts as dynamic in later builds, so that dragging it

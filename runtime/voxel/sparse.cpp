@@ -75,7 +75,8 @@ bool Sparse::put(const glm::ivec3& place, const Brick& brick) {
 }
 
 std::vector<uint32_t> Sparse::nano() const {
-    const auto handle = nanovdb::openToNanoVDB<nanovdb::HostBuffer, openvdb::MaskTree, nanovdb::ValueMask>(*m_impl->grid, nanovdb::StatsMode::BBox, nanovdb::ChecksumMode::Disable);
+    const auto handle = nanovdb::openToNanoVDB<nanovdb::HostBuffer, openvdb::MaskTree, nanovdb::ValueMask>(
+        *m_impl->grid, nanovdb::StatsMode::BBox, nanovdb::ChecksumMode::Disable);
     std::vector<uint32_t> words((handle.size() + 3) / 4, 0);
     std::memcpy(words.data(), handle.data(), handle.size());
     return words;

@@ -28,9 +28,9 @@ public:
     // The same cells as a NanoVDB grid of type mask, which shaders read through PNanoVDB.
     std::vector<uint32_t> nano() const;
 
-    uint64_t cells() const;   // set ones
+    uint64_t cells() const;  // set ones
     uint64_t bricks() const;
-    uint64_t bytes() const;   // of memory, OpenVDB's tree included
+    uint64_t bytes() const;  // of memory, OpenVDB's tree included
 
     // A .vdb file for any OpenVDB tool: one mask grid "occupancy" whose transform is the cell size. A trailing line has the hash of the
     // bytes, so that a damaged file is refused before OpenVDB reads it. Written to a temporary name, then renamed. Throws scene::Error, one

@@ -33,20 +33,20 @@ struct Voxels::Impl {
     Objects objects;
     Window window;
     Picked picked;
-    Sparse composed;                  // static geometry and objects; with options.nano
-    std::vector<uint32_t> grid;       // of `composed`
-    bool failed = false;              // static geometry could not be built: logged once, tried again when it changes
+    Sparse composed;             // static geometry and objects; with options.nano
+    std::vector<uint32_t> grid;  // of `composed`
+    bool failed = false;         // static geometry could not be built: logged once, tried again when it changes
     std::vector<std::string> lines;
     double stepMilliseconds = 0.0;
 
     // Owned by the caller.
     Change change;
     bool resendAll = false;
-    uint64_t sentGrid = 0;            // bytes of the newest grid
+    uint64_t sentGrid = 0;  // bytes of the newest grid
     Statistics statistics;
     std::atomic<float> progress{1.0f};
-    bool reportedEnd = true;          // of building, to options.progress
-    Worker worker;                    // last member: its thread ends before the others are destroyed
+    bool reportedEnd = true;  // of building, to options.progress
+    Worker worker;            // last member: its thread ends before the others are destroyed
 
     void reportProgress();
     void composeGrid(std::span<const glm::ivec3> changed, bool all, const Window::Compose& compose);

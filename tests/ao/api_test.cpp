@@ -31,11 +31,15 @@ TEST_F(ApiTest, noAllocationAfterTheFirstFrames) {
 TEST_F(ApiTest, motionScaleConvertsToPixelsAndCutDiscardsHistory) {
     const auto motionImage = [&](float x, float y) {
         gpu::Image image;
-        EXPECT_EQ(gpu::Image::create(m_device, {VK_FORMAT_R32G32_SFLOAT, m_room.width, m_room.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                                     "motion", image), gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::Image::create(m_device,
+                {VK_FORMAT_R32G32_SFLOAT, m_room.width, m_room.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                "motion", image),
+            gpu::Status::ok);
         std::vector<float> texels;
         for (uint32_t i = 0; i < m_room.width * m_room.height; ++i) texels.insert(texels.end(), {x, y});
-        EXPECT_EQ(gpu::upload(m_device, image, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::upload(m_device, image, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
         return image;
     };
     const Setting history{"temporal", 0.9f};
@@ -127,7 +131,8 @@ TEST_F(ApiTest, setMethodCreatesAllPipelines) {
         ASSERT_EQ(setMethod(context, "hbao", settings), Status::ok);
         EXPECT_EQ(made() > before, list.size() > 0);
         const uint64_t after = made();
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(record(context, cmd, frame()).status, Status::ok); }), gpu::Status::ok);
+        EXPECT_EQ(
+            m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(record(context, cmd, frame()).status, Status::ok); }), gpu::Status::ok);
         EXPECT_EQ(made(), after);
     }
     m_device.waitIdle();

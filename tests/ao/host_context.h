@@ -28,7 +28,9 @@ protected:
         m_depth = m_room.image(m_device, false);
         m_normals = m_room.image(m_device, true);
         const auto bits = std::as_bytes(std::span(m_room.bits));
-        ASSERT_EQ(gpu::Buffer::create(m_device, bits.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device, "bits", m_bits), gpu::Status::ok);
+        ASSERT_EQ(gpu::Buffer::create(m_device, bits.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                      gpu::Memory::device, "bits", m_bits),
+            gpu::Status::ok);
         ASSERT_EQ(gpu::upload(m_device, m_bits, bits), gpu::Status::ok);
         ASSERT_EQ(create(desc(), &m_context), Status::ok);
     }
@@ -64,7 +66,9 @@ protected:
     }
     std::vector<float> pixels(const Output& output) {
         std::vector<std::byte> bytes;
-        EXPECT_EQ(gpu::download(m_device, output.image, {VK_FORMAT_R16_SFLOAT, m_room.visibleWidth(), m_room.visibleHeight()}, output.layout, bytes), gpu::Status::ok);
+        EXPECT_EQ(gpu::download(
+                      m_device, output.image, {VK_FORMAT_R16_SFLOAT, m_room.visibleWidth(), m_room.visibleHeight()}, output.layout, bytes),
+            gpu::Status::ok);
         std::vector<float> result(bytes.size() / 2);
         for (size_t i = 0; i < result.size(); ++i) {
             uint16_t half = 0;

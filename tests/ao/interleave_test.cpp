@@ -39,7 +39,8 @@ protected:
         return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
             std::vector<uint32_t> texels;
             for (uint32_t y = 0; y < kHeight; ++y)
-                for (uint32_t x = 0; x < kWidth; ++x) texels.insert(texels.end(), {std::bit_cast<uint32_t>(frame.depth(int(x), int(y))), packed(frame.normal)});
+                for (uint32_t x = 0; x < kWidth; ++x)
+                    texels.insert(texels.end(), {std::bit_cast<uint32_t>(frame.depth(int(x), int(y))), packed(frame.normal)});
             return m_gather.addMap(graph, inputs, source, image(m_input, VK_FORMAT_R32G32_UINT, kWidth, kHeight, texels), scale, side);
         });
     }
@@ -67,7 +68,9 @@ TEST_F(GatherTest, linearRampIsUnchanged) {  // also for tiles of even side, whi
 
 TEST_F(GatherTest, gatherStopsAtDepthEdges) {
     for (const uint32_t side : {2u, 3u, 4u}) {
-        const Plane plane = run({.visibility = [](int x, int) { return x < 20 ? 0.0f : 1.0f; }, .depth = [](int x, int) { return x < 20 ? 2.0f : 2.2f; }}, side);
+        const Plane plane =
+            run({.visibility = [](int x, int) { return x < 20 ? 0.0f : 1.0f; }, .depth = [](int x, int) { return x < 20 ? 2.0f : 2.2f; }},
+                side);
         for (uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(at(plane, x, 10), x < 20 ? 0.0f : 1.0f) << side << ": " << x;
     }
 }
@@ -86,7 +89,8 @@ TEST_F(GatherTest, mapPixelsUseTheirOwnPositions) {
         const float h = kHorizontal * (float(kGuard) + (float(x) + 0.5f) * scale - 0.5f * float(kWidth + 2 * kGuard));
         return 4.0f / (1.0f - std::min(h, 0.75f));
     };
-    const Frame frame{.visibility = [](int x, int y) { return float(x % 2 + 2 * (y % 2)) / 4.0f; }, .depth = depth, .normal = {slant, 0.0f, slant}};
+    const Frame frame{
+        .visibility = [](int x, int y) { return float(x % 2 + 2 * (y % 2)) / 4.0f; }, .depth = depth, .normal = {slant, 0.0f, slant}};
     const Plane shared = runMap(frame, 2, 2), misplaced = runMap(frame, 1, 2);
     for (uint32_t y = 1; y < kHeight - 1; ++y)
         for (uint32_t x = 1; x < 12; ++x) {
@@ -127,7 +131,8 @@ TEST_P(InterleavedMethod, isNearTheUninterleavedResult) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, InterleavedMethod, testing::Values("hbao", "horizon_split", "far_field", "hybrid", "multi_resolution"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, InterleavedMethod, testing::Values("hbao", "horizon_split", "far_field", "hybrid", "multi_resolution"),
+    [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace obscura::test

@@ -11,7 +11,8 @@ protected:
     graph::Graph m_graph{m_device};
     graph::Executor m_executor{m_device};
     static inline gpu::ShaderLibrary s_shaders;
-    static inline std::unique_ptr<Library> s_library;  // shared by all tests: creating every method's pipelines takes longer than most tests
+    static inline std::unique_ptr<Library>
+        s_library;  // shared by all tests: creating every method's pipelines takes longer than most tests
     uint64_t m_frame = 0;
 
     static void SetUpTestSuite() { s_shaders.add(shaders()); }
@@ -26,12 +27,12 @@ protected:
     }
 
     // Visibility of a room, row by row; empty when record() failed.
-    std::vector<float> run(const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true, bool withMotion = false,
-                           bool readBack = true) {
+    std::vector<float> run(const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true,
+        bool withMotion = false, bool readBack = true) {
         return run(*s_library, room, values, falloff, withNormals, withMotion, readBack);
     }
-    std::vector<float> run(Library& library, const test::Room& room, const Values& values, const char* falloff = "quadratic:2", bool withNormals = true,
-                           bool withMotion = false, bool readBack = true) {
+    std::vector<float> run(Library& library, const test::Room& room, const Values& values, const char* falloff = "quadratic:2",
+        bool withNormals = true, bool withMotion = false, bool readBack = true) {
         const gpu::Image depth = room.image(m_device, false), normals = room.image(m_device, true);
         Falloff rho;
         EXPECT_TRUE(parseFalloff(falloff, rho));
@@ -48,10 +49,14 @@ protected:
         sources.volume = m_graph.upload("bits", room.bits.data(), room.bits.size() * sizeof(uint32_t));
         gpu::Image motion;
         if (withMotion) {
-            EXPECT_EQ(gpu::Image::create(m_device, {VK_FORMAT_R32G32_SFLOAT, room.width, room.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                                         "still", motion), gpu::Status::ok);
+            EXPECT_EQ(
+                gpu::Image::create(m_device,
+                    {VK_FORMAT_R32G32_SFLOAT, room.width, room.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                    "still", motion),
+                gpu::Status::ok);
             const std::vector<float> still(size_t(room.width) * room.height * 2, 0.0f);
-            EXPECT_EQ(gpu::upload(m_device, motion, std::as_bytes(std::span(still)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
+            EXPECT_EQ(
+                gpu::upload(m_device, motion, std::as_bytes(std::span(still)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
             sources.motion = import("motion", motion);
         }
         Frame frame = room.frame();
@@ -59,17 +64,23 @@ protected:
         const graph::ImageId visibility = library.add(m_graph, frame, sources, rho, values).visibility;
         if (!visibility) return {};
         if (!readBack) {  // no pass reads the method's output
-            EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor.execute(m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
+            EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor.execute(m_graph, cmd), gpu::Status::ok); }),
+                gpu::Status::ok);
             return {};
         }
         const uint32_t width = room.visibleWidth(), height = room.visibleHeight();
         gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(m_device, uint64_t(width) * height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+        EXPECT_EQ(gpu::Buffer::create(
+                      m_device, uint64_t(width) * height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
+            gpu::Status::ok);
         const graph::BufferId target = m_graph.import("back", back, graph::Graph::Shared::written);
-        m_graph.pass("read back").use(visibility, graph::Access::transferRead).use(target, graph::Access::transferWrite)
+        m_graph.pass("read back")
+            .use(visibility, graph::Access::transferRead)
+            .use(target, graph::Access::transferWrite)
             .record([&, visibility](const graph::PassContext& c) {
                 const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
-                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
+                c.device.vk().CmdCopyImageToBuffer(
+                    c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
             });
         gpu::Status status = gpu::Status::ok;
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); }), gpu::Status::ok);
@@ -133,7 +144,11 @@ TEST_F(LibraryTest, historyReducesNoiseOfEveryMethod) {
         for (size_t i = 0; i < next.size(); ++i) change += std::abs(next[i] - gathered[i]);
         EXPECT_LT(change / double(next.size()), 0.004) << info->id;
     }
-    const Values hbao = [] { Values v(*findMethod("hbao")); v.set("temporal", 0.9f); return v; }();
+    const Values hbao = [] {
+        Values v(*findMethod("hbao"));
+        v.set("temporal", 0.9f);
+        return v;
+    }();
     s_library->discardHistory();
     const std::vector<float> first = run(room, hbao, "quadratic:2", true, true);
     s_library->discardHistory();

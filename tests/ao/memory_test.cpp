@@ -22,7 +22,11 @@ public:
 
 private:
     static constexpr uint64_t kPool = 64 << 20;
-    struct Pool { VkDeviceMemory memory; std::byte* mapped; uint64_t used; };
+    struct Pool {
+        VkDeviceMemory memory;
+        std::byte* mapped;
+        uint64_t used;
+    };
 
     static VkResult allocate(void* user, const VkMemoryRequirements& needs, bool mapped, bool, MemoryBlock& block) {
         Pools& own = *static_cast<Pools*>(user);
@@ -48,7 +52,8 @@ private:
         EXPECT_TRUE(!mapped || pool.mapped);
         ++own.allocationCount, ++own.liveBlocks;
         own.allocatedBytes += needs.size;
-        block = {pool.memory, offset + (own.misaligned ? 1 : 0), mapped && !own.unmapped ? pool.mapped + offset : nullptr, reinterpret_cast<void*>(needs.size)};
+        block = {pool.memory, offset + (own.misaligned ? 1 : 0), mapped && !own.unmapped ? pool.mapped + offset : nullptr,
+            reinterpret_cast<void*>(needs.size)};
         return VK_SUCCESS;
     }
     static void free(void* user, const MemoryBlock& block) {
@@ -203,7 +208,9 @@ TEST_F(MemoryTest, eightBitOutputIsTheRoundedHalfFloat) {
         const Output output = once(frame());
         ASSERT_EQ(output.status, Status::ok);
         std::vector<std::byte> bytes;
-        ASSERT_EQ(gpu::download(m_device, output.image, {VK_FORMAT_R8_UNORM, m_room.visibleWidth(), m_room.visibleHeight()}, output.layout, bytes), gpu::Status::ok);
+        ASSERT_EQ(gpu::download(
+                      m_device, output.image, {VK_FORMAT_R8_UNORM, m_room.visibleWidth(), m_room.visibleHeight()}, output.layout, bytes),
+            gpu::Status::ok);
         ASSERT_EQ(bytes.size(), wide.size());
         for (size_t i = 0; i < bytes.size(); ++i) ASSERT_NEAR(255.0f * wide[i], float(bytes[i]), 0.502f) << method << " pixel " << i;
     }

@@ -72,9 +72,13 @@ protected:
         const auto readBack = [&](graph::ImageId image, gpu::Buffer& buffer) {
             const gpu::ImageDesc desc = m_graph->desc(image);
             const uint64_t bytes = uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format);
-            EXPECT_EQ(gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", buffer), gpu::Status::ok);
+            EXPECT_EQ(gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", buffer),
+                gpu::Status::ok);
             const graph::BufferId target = m_graph->import("back", buffer, graph::Graph::Shared::written);
-            m_graph->pass("read back").use(image, graph::Access::transferRead).use(target, graph::Access::transferWrite).keep()
+            m_graph->pass("read back")
+                .use(image, graph::Access::transferRead)
+                .use(target, graph::Access::transferWrite)
+                .keep()
                 .record([image, desc, to = buffer.handle()](const graph::PassContext& c) {
                     const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {desc.width, desc.height, 1}};
                     c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &region);
@@ -92,7 +96,8 @@ protected:
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor->execute(*m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
         if (probed) {
-            m_probed = {m_graph->desc(probed).width, m_graph->desc(probed).height, m_graph->desc(probed).format == VK_FORMAT_R32G32_UINT ? 2u : 1u, {}};
+            m_probed = {m_graph->desc(probed).width, m_graph->desc(probed).height,
+                m_graph->desc(probed).format == VK_FORMAT_R32G32_UINT ? 2u : 1u, {}};
             m_probed.words.resize(size_t(m_probed.width) * m_probed.height * m_probed.each);
             std::memcpy(m_probed.words.data(), probe.mapped(), m_probed.words.size() * 4);
         }
@@ -110,7 +115,7 @@ protected:
     std::unique_ptr<graph::Executor> m_executor;
     std::unique_ptr<ao::Library> m_library;
     std::set<std::string> m_passes;  // of the last run
-    std::string m_probe;             // name of an image with one or two 32-bit words a texel that a pass writes; run() reads it back into m_probed
+    std::string m_probe;  // name of an image with one or two 32-bit words a texel that a pass writes; run() reads it back into m_probed
     struct {
         uint32_t width = 0, height = 0, each = 1;
         std::vector<uint32_t> words;

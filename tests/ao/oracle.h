@@ -26,7 +26,8 @@ protected:
     // A stored frame as a room's images; `frame` describes their formats and spaces.
     Room captured(const std::string& name, ao::Frame& frame) const {
         const fs::path folder = this->folder();
-        if (!fs::exists(folder / (name + ".json"))) skip("no " + (folder / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
+        if (!fs::exists(folder / (name + ".json")))
+            skip("no " + (folder / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
         const truth::CapturedFrame captured = truth::readCapture(folder / name);
         Room room;
         room.width = captured.size.x;
@@ -51,8 +52,8 @@ protected:
         for (truth::Plane* plane : {&visibility, &reference})
             for (float& v : plane->values) v = 1.0f - v;  // both are obscurance
         const truth::Metrics metrics = truth::compare(visibility, reference, truth::Mask(captured.visibleMask()));
-        printf("%-9s %s %s: eA %.4f, bias %+.4f, within 0.05 %.3f, SSIM %.3f\n", name.c_str(), m_method, channel.c_str(), double(metrics.raw.eA), double(metrics.raw.bias),
-               double(metrics.raw.e5), double(metrics.ssim));
+        printf("%-9s %s %s: eA %.4f, bias %+.4f, within 0.05 %.3f, SSIM %.3f\n", name.c_str(), m_method, channel.c_str(),
+            double(metrics.raw.eA), double(metrics.raw.bias), double(metrics.raw.e5), double(metrics.ssim));
         return metrics;
     }
 };

@@ -68,9 +68,13 @@ protected:
         m_passedThrough = result == source;
         if (m_passedThrough) return visibility;
         gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(m_device, kWidth * kHeight * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::Buffer::create(m_device, kWidth * kHeight * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
+            gpu::Status::ok);
         const graph::BufferId target = m_graph.import("back", back, graph::Graph::Shared::written);
-        m_graph.pass("read back").use(result, graph::Access::transferRead).use(target, graph::Access::transferWrite)
+        m_graph.pass("read back")
+            .use(result, graph::Access::transferRead)
+            .use(target, graph::Access::transferWrite)
             .record([&, result](const graph::PassContext& c) {
                 const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kWidth, kHeight, 1}};
                 c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(result), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
@@ -99,9 +103,13 @@ protected:
     }
     static float at(const Plane& plane, uint32_t x, uint32_t y) { return plane[y * kWidth + x]; }
 
-    template <class T> graph::ImageId image(gpu::Image& out, VkFormat format, uint32_t width, uint32_t height, const std::vector<T>& texels) {
-        EXPECT_EQ(gpu::Image::create(m_device, {format, width, height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                                     "resolve test", out), gpu::Status::ok);
+    template <class T> graph::ImageId image(
+        gpu::Image& out, VkFormat format, uint32_t width, uint32_t height, const std::vector<T>& texels) {
+        EXPECT_EQ(
+            gpu::Image::create(m_device,
+                {format, width, height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                "resolve test", out),
+            gpu::Status::ok);
         EXPECT_EQ(gpu::upload(m_device, out, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
         graph::External external{out.handle(), out.view(), out.desc()};
         external.layout = external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;

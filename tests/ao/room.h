@@ -22,8 +22,8 @@ struct Room {
     std::vector<float> thickness;  // depth layers, optional: see ao::DepthLayers
     std::vector<float> second;     // second layer: depth and thickness, of every pixel or every second one
     float projection[16] = {};
-    ao::Volume volume;             // around the camera, its buffer left out
-    std::vector<uint32_t> bits;    // of the volume: every cell that the floor's or the wall's plane touches
+    ao::Volume volume;           // around the camera, its buffer left out
+    std::vector<uint32_t> bits;  // of the volume: every cell that the floor's or the wall's plane touches
 
     void build() {
         voxelize(128, 0.12f);
@@ -62,7 +62,8 @@ struct Room {
         };
         for (uint32_t y = 0; y < cells; ++y)
             for (uint32_t z = 0; z < cells; ++z) {
-                if (!touches(c, s, floor * scale, float(y), float(z)) && !(wall < 0.0f && touches(-s, c, wall * scale, float(y), float(z)))) continue;
+                if (!touches(c, s, floor * scale, float(y), float(z)) && !(wall < 0.0f && touches(-s, c, wall * scale, float(y), float(z))))
+                    continue;
                 for (uint32_t x = 0; x < cells; ++x) set(x, y, z);
             }
     }
@@ -93,16 +94,26 @@ struct Room {
     gpu::Image layer(gpu::Device& device, bool ofSecond) const {
         const VkExtent2D size = ofSecond ? secondSize() : VkExtent2D{width, height};
         gpu::Image result;
-        EXPECT_EQ(gpu::Image::create(device, {ofSecond ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32_SFLOAT, size.width, size.height, 1, 1,
-                                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}, "layer", result), gpu::Status::ok);
-        EXPECT_EQ(gpu::upload(device, result, std::as_bytes(std::span(ofSecond ? second : thickness)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
+        EXPECT_EQ(gpu::Image::create(device,
+                      {ofSecond ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32_SFLOAT, size.width, size.height, 1, 1,
+                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                      "layer", result),
+            gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::upload(device, result, std::as_bytes(std::span(ofSecond ? second : thickness)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+            gpu::Status::ok);
         return result;
     }
     gpu::Image image(gpu::Device& device, bool ofNormals) const {
         gpu::Image result;
-        EXPECT_EQ(gpu::Image::create(device, {ofNormals ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_SFLOAT, width, height, 1, 1,
-                                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}, "room", result), gpu::Status::ok);
-        EXPECT_EQ(gpu::upload(device, result, std::as_bytes(std::span(ofNormals ? normals : depth)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
+        EXPECT_EQ(gpu::Image::create(device,
+                      {ofNormals ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_SFLOAT, width, height, 1, 1,
+                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                      "room", result),
+            gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::upload(device, result, std::as_bytes(std::span(ofNormals ? normals : depth)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+            gpu::Status::ok);
         return result;
     }
 };

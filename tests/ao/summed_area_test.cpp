@@ -30,9 +30,13 @@ protected:
 
     gpu::Buffer buffer(uint64_t bytes, const void* data = nullptr) {
         gpu::Buffer result;
-        const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-        EXPECT_EQ(gpu::Buffer::create(m_device, bytes, usage, data ? gpu::Memory::device : gpu::Memory::readback, "test", result), gpu::Status::ok);
-        if (data) { EXPECT_EQ(gpu::upload(m_device, result, {static_cast<const std::byte*>(data), bytes}), gpu::Status::ok); }
+        const VkBufferUsageFlags usage =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+        EXPECT_EQ(gpu::Buffer::create(m_device, bytes, usage, data ? gpu::Memory::device : gpu::Memory::readback, "test", result),
+            gpu::Status::ok);
+        if (data) {
+            EXPECT_EQ(gpu::upload(m_device, result, {static_cast<const std::byte*>(data), bytes}), gpu::Status::ok);
+        }
         return result;
     }
 
@@ -51,7 +55,8 @@ protected:
         std::memset(to.mapped(), 0xcd, bytes);
         m_device.nextFrame();
         m_graph.begin();
-        const graph::BufferId source = m_graph.import("texels", from, graph::Graph::Shared::constant), code = m_graph.import("codes", by, graph::Graph::Shared::constant);
+        const graph::BufferId source = m_graph.import("texels", from, graph::Graph::Shared::constant),
+                              code = m_graph.import("codes", by, graph::Graph::Shared::constant);
         const graph::BufferId table = m_graph.import("table", to, graph::Graph::Shared::written);
         if (layers.empty()) m_sums.add(m_graph, "sums", source, table, size);
         else m_sums.add(m_graph, "sums", source, code, table, size, layers);
@@ -73,7 +78,8 @@ protected:
                             for (int c = 0; c < 4; ++c) row[k][c] += texels[i][c];
                         for (int c = 0; c < 4; ++c) sum[c] += row[k][c];
                     }
-                    ASSERT_EQ(got[(size_t(y) * (size.x + 1) + x) * wanted.size() + k], sum) << size.x << "x" << size.y << " at " << x << "," << y << " layer " << k;
+                    ASSERT_EQ(got[(size_t(y) * (size.x + 1) + x) * wanted.size() + k], sum)
+                        << size.x << "x" << size.y << " at " << x << "," << y << " layer " << k;
                 }
         }
     }

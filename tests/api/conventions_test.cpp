@@ -51,7 +51,8 @@ struct Row {
         if (d.worst >= worst.worst) which = name;
         worst.worst = std::max(worst.worst, d.worst);
         if (std::getenv("OBSCURA_EVERY_CASE"))  // to find the cause of a failure
-             std::printf("    %-14s %-44s mean %.3f worst %.2f over %zu at %zu\n", kind.c_str(), name.c_str(), d.mean * 255, d.worst * 255, d.over, d.where);
+            std::printf("    %-14s %-44s mean %.3f worst %.2f over %zu at %zu\n", kind.c_str(), name.c_str(), d.mean * 255, d.worst * 255,
+                d.over, d.where);
     }
 };
 
@@ -80,8 +81,8 @@ protected:
     void TearDown() override {
         size_t cases = 0;
         for (const Row& row : m_rows) {
-            std::printf("  %-20s %-16s %3zu cases | worst mean %6.3f | worst pixel %6.2f, at most %4zu over 2 (in 255ths) | %s\n", m_info.id, row.kind.c_str(), row.cases,
-                        row.worst.mean * 255, row.worst.worst * 255, row.worst.over, row.which.c_str());
+            std::printf("  %-20s %-16s %3zu cases | worst mean %6.3f | worst pixel %6.2f, at most %4zu over 2 (in 255ths) | %s\n",
+                m_info.id, row.kind.c_str(), row.cases, row.worst.mean * 255, row.worst.worst * 255, row.worst.over, row.which.c_str());
             cases += row.cases;
         }
         std::printf("  %-20s %-16s %3zu cases\n", m_info.id, "all", cases);
@@ -116,20 +117,30 @@ protected:
     }
 };
 
-struct Named { std::string name; DepthCoding coding; };
+struct Named {
+    std::string name;
+    DepthCoding coding;
+};
 
 std::vector<Named> depthCodings() {
-    const std::pair<const char*, Depth> kinds[] = {{"standard", Depth::standard}, {"reversed", Depth::reversed}, {"infinite", Depth::infinite}, {"reversed infinite", Depth::reversedInfinite}};
-    const struct { const char* name; VkFormat format; VkImageLayout layout; } formats[] = {
-        {"D16", VK_FORMAT_D16_UNORM, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL}, {"X8D24", VK_FORMAT_X8_D24_UNORM_PACK32, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
-        {"D24S8", VK_FORMAT_D24_UNORM_S8_UINT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL}, {"D32", VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL},
+    const std::pair<const char*, Depth> kinds[] = {{"standard", Depth::standard}, {"reversed", Depth::reversed},
+        {"infinite", Depth::infinite}, {"reversed infinite", Depth::reversedInfinite}};
+    const struct {
+        const char* name;
+        VkFormat format;
+        VkImageLayout layout;
+    } formats[] = {{"D16", VK_FORMAT_D16_UNORM, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL},
+        {"X8D24", VK_FORMAT_X8_D24_UNORM_PACK32, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
+        {"D24S8", VK_FORMAT_D24_UNORM_S8_UINT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL},
+        {"D32", VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL},
         {"D32S8", VK_FORMAT_D32_SFLOAT_S8_UINT, VK_IMAGE_LAYOUT_GENERAL}, {"R32F", VK_FORMAT_R32_SFLOAT, VK_IMAGE_LAYOUT_GENERAL}};
     std::vector<Named> codings;
     for (const auto& [name, kind] : kinds)
         for (const auto& f : formats) {
             if (!test::device().formatSupports(f.format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT)) continue;
             codings.push_back({std::string(name) + " " + f.name, {kind, f.format, 1.0, 20.0, f.layout}});
-            if (f.format != VK_FORMAT_D16_UNORM) codings.push_back({std::string(name) + " " + f.name + " 0.1 to 1000 m", {kind, f.format, 0.1, 1000.0, f.layout}});
+            if (f.format != VK_FORMAT_D16_UNORM)
+                codings.push_back({std::string(name) + " " + f.name + " 0.1 to 1000 m", {kind, f.format, 0.1, 1000.0, f.layout}});
         }
     return codings;
 }
@@ -158,17 +169,21 @@ TEST_P(Conventions, giveTheVisibilityOfTheCanonicalFrame) {
     }
     {
         using enum NormalEncoding;
-        struct Encoding { const char* name; NormalEncoding encoding; VkFormat format; };
-        const std::vector<Encoding> encodings = {
-            {"RGBA32F", signedFloat, VK_FORMAT_R32G32B32A32_SFLOAT}, {"RGBA16F", signedFloat, VK_FORMAT_R16G16B16A16_SFLOAT},
-            {"RGBA16 snorm", signedFloat, VK_FORMAT_R16G16B16A16_SNORM}, {"RGBA8 snorm", signedFloat, VK_FORMAT_R8G8B8A8_SNORM},
-            {"RGBA8", biased, VK_FORMAT_R8G8B8A8_UNORM}, {"RGB10A2", biased, VK_FORMAT_A2B10G10R10_UNORM_PACK32},
-            {"RGBA16", biased, VK_FORMAT_R16G16B16A16_UNORM}, {"RGBA16F", biased, VK_FORMAT_R16G16B16A16_SFLOAT},
-            {"octahedral", octahedral32, VK_FORMAT_R32_UINT}};
+        struct Encoding {
+            const char* name;
+            NormalEncoding encoding;
+            VkFormat format;
+        };
+        const std::vector<Encoding> encodings = {{"RGBA32F", signedFloat, VK_FORMAT_R32G32B32A32_SFLOAT},
+            {"RGBA16F", signedFloat, VK_FORMAT_R16G16B16A16_SFLOAT}, {"RGBA16 snorm", signedFloat, VK_FORMAT_R16G16B16A16_SNORM},
+            {"RGBA8 snorm", signedFloat, VK_FORMAT_R8G8B8A8_SNORM}, {"RGBA8", biased, VK_FORMAT_R8G8B8A8_UNORM},
+            {"RGB10A2", biased, VK_FORMAT_A2B10G10R10_UNORM_PACK32}, {"RGBA16", biased, VK_FORMAT_R16G16B16A16_UNORM},
+            {"RGBA16F", biased, VK_FORMAT_R16G16B16A16_SFLOAT}, {"octahedral", octahedral32, VK_FORMAT_R32_UINT}};
         Row normals{"normals"}, fromExact{"normals, exact"};
         for (const NormalKind kind : {NormalKind::eye, NormalKind::world})
             for (const Encoding& e : some(encodings, 1))
-                judge(std::string(kind == NormalKind::eye ? "eye " : "world ") + e.name, {base, {}, {false, kind, e.encoding, e.format}}, normals, fromExact);
+                judge(std::string(kind == NormalKind::eye ? "eye " : "world ") + e.name, {base, {}, {false, kind, e.encoding, e.format}},
+                    normals, fromExact);
         within(normals, 2, 2);
         within(fromExact, 0.5, 255);
         m_rows.insert(m_rows.end(), {normals, fromExact});
@@ -240,8 +255,9 @@ TEST_P(Conventions, giveTheVisibilityOfTheCanonicalFrame) {
         for (const VkExtent2D guard : some<VkExtent2D>({{0, 0}, {16, 16}, {32, 16}, {48, 32}, {80, 48}, {8, 5}, {33, 17}}, 2)) {
             Geometry g = base;
             g.guard = guard;
-            (guard.width % 16 ? odd : guards).add(std::to_string(guard.width) + "x" + std::to_string(guard.height),
-                deviation(run({g, {Depth::reversedInfinite, VK_FORMAT_D32_SFLOAT}}, test::trace(g)), canonical));
+            (guard.width % 16 ? odd : guards)
+                .add(std::to_string(guard.width) + "x" + std::to_string(guard.height),
+                    deviation(run({g, {Depth::reversedInfinite, VK_FORMAT_D32_SFLOAT}}, test::trace(g)), canonical));
         }
         within(guards, 0.5, 3);
         within(odd, 0.5, 255);
@@ -256,7 +272,8 @@ TEST_P(Conventions, giveTheVisibilityOfTheCanonicalFrame) {
             char name[32];
             std::snprintf(name, sizeof(name), "%g", scale);
             scales.add(std::string(name) + " linear", deviation(run({g}, picture), canonical));
-            scales.add(std::string(name) + " D32", deviation(run({g, {Depth::reversedInfinite, VK_FORMAT_D32_SFLOAT}, {false, NormalKind::world}}, picture), canonical));
+            scales.add(std::string(name) + " D32",
+                deviation(run({g, {Depth::reversedInfinite, VK_FORMAT_D32_SFLOAT}, {false, NormalKind::world}}, picture), canonical));
         }
         within(scales, 2, 2);
         m_rows.push_back(scales);
@@ -266,7 +283,8 @@ TEST_P(Conventions, giveTheVisibilityOfTheCanonicalFrame) {
         Geometry g = base;
         for (const double metres : some<double>({1e4, 1e6}, 1)) {
             g.origin = glm::dvec3(metres, 0.0, -metres);
-            far.add(metres > 1e5 ? "1e6 m" : "1e4 m", deviation(run({g, {Depth::reversed, VK_FORMAT_D32_SFLOAT}, {false, NormalKind::world}}, seen), canonical));
+            far.add(metres > 1e5 ? "1e6 m" : "1e4 m",
+                deviation(run({g, {Depth::reversed, VK_FORMAT_D32_SFLOAT}, {false, NormalKind::world}}, seen), canonical));
         }
         if (m_info.needs) {
             choose(1.0, {{"temporal", 0.9f}});

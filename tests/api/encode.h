@@ -13,7 +13,7 @@ enum class Depth : uint8_t { linear, standard, reversed, infinite, reversedInfin
 struct DepthCoding {
     Depth kind = Depth::linear;
     VkFormat format = VK_FORMAT_R32_SFLOAT;
-    double near = 1.0, far = 20.0;   // metres at scale 1
+    double near = 1.0, far = 20.0;  // metres at scale 1
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 };
 
@@ -44,16 +44,22 @@ inline void projectionOf(const Geometry& g, const DepthCoding& coding, float out
         a = -1.0;
         b = -n;
     }
-    const double p[16] = {sx / metres, 0, 0, 0, 0, sy / metres, 0, 0, g.orthographic ? 0.0 : sx * g.shift.x, g.orthographic ? 0.0 : sy * g.shift.y, a,
-                          g.orthographic ? 0.0 : -1.0, g.orthographic ? -sx * g.shift.x : 0.0, g.orthographic ? -sy * g.shift.y : 0.0, b, g.orthographic ? 1.0 : 0.0};
+    const double p[16] = {sx / metres, 0, 0, 0, 0, sy / metres, 0, 0, g.orthographic ? 0.0 : sx * g.shift.x,
+        g.orthographic ? 0.0 : sy * g.shift.y, a, g.orthographic ? 0.0 : -1.0, g.orthographic ? -sx * g.shift.x : 0.0,
+        g.orthographic ? -sy * g.shift.y : 0.0, b, g.orthographic ? 1.0 : 0.0};
     std::copy(std::begin(p), std::end(p), out);
 }
 
 inline uint32_t texelBytes(VkFormat format) {  // bytes a texel in a copy of the depth or colour aspect
     switch (format) {
         case VK_FORMAT_D16_UNORM: return 2;
-        case VK_FORMAT_R16G16_SFLOAT: case VK_FORMAT_R32_SFLOAT: case VK_FORMAT_R32_UINT: return 4;
-        case VK_FORMAT_R32G32_SFLOAT: case VK_FORMAT_R16G16B16A16_SFLOAT: case VK_FORMAT_R16G16B16A16_SNORM: case VK_FORMAT_R16G16B16A16_UNORM: return 8;
+        case VK_FORMAT_R16G16_SFLOAT:
+        case VK_FORMAT_R32_SFLOAT:
+        case VK_FORMAT_R32_UINT: return 4;
+        case VK_FORMAT_R32G32_SFLOAT:
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case VK_FORMAT_R16G16B16A16_SNORM:
+        case VK_FORMAT_R16G16B16A16_UNORM: return 8;
         case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
         default: return 4;
     }
@@ -109,7 +115,8 @@ inline std::vector<std::byte> encodeNormals(const Geometry& g, const NormalCodin
         if (coding.encoding == ao::NormalEncoding::octahedral32) {
             n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
             glm::dvec2 e(n);
-            if (n.z < 0.0) e = glm::dvec2((1.0 - std::abs(n.y)) * (n.x >= 0.0 ? 1.0 : -1.0), (1.0 - std::abs(n.x)) * (n.y >= 0.0 ? 1.0 : -1.0));
+            if (n.z < 0.0)
+                e = glm::dvec2((1.0 - std::abs(n.y)) * (n.x >= 0.0 ? 1.0 : -1.0), (1.0 - std::abs(n.x)) * (n.y >= 0.0 ? 1.0 : -1.0));
             put(bytes, int16_t(std::lround(e.x * 32767.0)));
             put(bytes, int16_t(std::lround(e.y * 32767.0)));
             continue;
@@ -117,17 +124,18 @@ inline std::vector<std::byte> encodeNormals(const Geometry& g, const NormalCodin
         if (coding.encoding == ao::NormalEncoding::biased) n = n * 0.5 + 0.5;
         const double c[4] = {n.x, n.y, n.z, 0.0};
         if (coding.format == VK_FORMAT_A2B10G10R10_UNORM_PACK32) {
-            put(bytes, uint32_t(std::lround(c[0] * 1023.0)) | uint32_t(std::lround(c[1] * 1023.0)) << 10 | uint32_t(std::lround(c[2] * 1023.0)) << 20);
+            put(bytes, uint32_t(std::lround(c[0] * 1023.0)) | uint32_t(std::lround(c[1] * 1023.0)) << 10 |
+                           uint32_t(std::lround(c[2] * 1023.0)) << 20);
             continue;
         }
         for (const double value : c) switch (coding.format) {
-            case VK_FORMAT_R8G8B8A8_UNORM: put(bytes, uint8_t(std::lround(value * 255.0))); break;
-            case VK_FORMAT_R8G8B8A8_SNORM: put(bytes, int8_t(std::lround(value * 127.0))); break;
-            case VK_FORMAT_R16G16B16A16_UNORM: put(bytes, uint16_t(std::lround(value * 65535.0))); break;
-            case VK_FORMAT_R16G16B16A16_SNORM: put(bytes, int16_t(std::lround(value * 32767.0))); break;
-            case VK_FORMAT_R16G16B16A16_SFLOAT: put(bytes, toHalf(float(value))); break;
-            default: put(bytes, float(value)); break;
-        }
+                case VK_FORMAT_R8G8B8A8_UNORM: put(bytes, uint8_t(std::lround(value * 255.0))); break;
+                case VK_FORMAT_R8G8B8A8_SNORM: put(bytes, int8_t(std::lround(value * 127.0))); break;
+                case VK_FORMAT_R16G16B16A16_UNORM: put(bytes, uint16_t(std::lround(value * 65535.0))); break;
+                case VK_FORMAT_R16G16B16A16_SNORM: put(bytes, int16_t(std::lround(value * 32767.0))); break;
+                case VK_FORMAT_R16G16B16A16_SFLOAT: put(bytes, toHalf(float(value))); break;
+                default: put(bytes, float(value)); break;
+            }
     }
     return bytes;
 }
@@ -144,7 +152,9 @@ inline Picture decoded(const Geometry& g, const DepthCoding& depth, const Normal
         if (depth.kind == Depth::linear || picture.depth[i] == 0.0) continue;
         const std::byte* at = depths.data() + i * texelBytes(depth.format);
         const double d = depth.format == VK_FORMAT_D16_UNORM ? value(at, uint16_t{}) / 65535.0
-                       : depth.format == VK_FORMAT_X8_D24_UNORM_PACK32 || depth.format == VK_FORMAT_D24_UNORM_S8_UINT ? value(at, uint32_t{}) / 16777215.0 : value(at, float{});
+                         : depth.format == VK_FORMAT_X8_D24_UNORM_PACK32 || depth.format == VK_FORMAT_D24_UNORM_S8_UINT
+                             ? value(at, uint32_t{}) / 16777215.0
+                             : value(at, float{});
         if (g.orthographic) picture.depth[i] = depth.kind == Depth::standard ? n + d * (f - n) : f - d * (f - n);
         else if (depth.kind == Depth::standard) picture.depth[i] = n / (1.0 - d * (f - n) / f);
         else if (depth.kind == Depth::reversed) picture.depth[i] = f / (1.0 + d * (f - n) / n);
@@ -155,15 +165,15 @@ inline Picture decoded(const Geometry& g, const DepthCoding& depth, const Normal
         const std::byte* at = stored.data() + i * texelBytes(normals.format);
         glm::dvec3 c;
         for (int k = 0; k < 3; ++k) switch (normals.format) {
-            case VK_FORMAT_R32_UINT: c[k] = k < 2 ? value(at + 2 * k, int16_t{}) / 32767.0 : 0.0; break;
-            case VK_FORMAT_A2B10G10R10_UNORM_PACK32: c[k] = double(uint32_t(value(at, uint32_t{})) >> 10 * k & 1023u) / 1023.0; break;
-            case VK_FORMAT_R8G8B8A8_UNORM: c[k] = value(at + k, uint8_t{}) / 255.0; break;
-            case VK_FORMAT_R8G8B8A8_SNORM: c[k] = std::max(value(at + k, int8_t{}) / 127.0, -1.0); break;
-            case VK_FORMAT_R16G16B16A16_UNORM: c[k] = value(at + 2 * k, uint16_t{}) / 65535.0; break;
-            case VK_FORMAT_R16G16B16A16_SNORM: c[k] = std::max(value(at + 2 * k, int16_t{}) / 32767.0, -1.0); break;
-            case VK_FORMAT_R16G16B16A16_SFLOAT: c[k] = halfToFloat(uint16_t(value(at + 2 * k, uint16_t{}))); break;
-            default: c[k] = value(at + 4 * k, float{}); break;
-        }
+                case VK_FORMAT_R32_UINT: c[k] = k < 2 ? value(at + 2 * k, int16_t{}) / 32767.0 : 0.0; break;
+                case VK_FORMAT_A2B10G10R10_UNORM_PACK32: c[k] = double(uint32_t(value(at, uint32_t{})) >> 10 * k & 1023u) / 1023.0; break;
+                case VK_FORMAT_R8G8B8A8_UNORM: c[k] = value(at + k, uint8_t{}) / 255.0; break;
+                case VK_FORMAT_R8G8B8A8_SNORM: c[k] = std::max(value(at + k, int8_t{}) / 127.0, -1.0); break;
+                case VK_FORMAT_R16G16B16A16_UNORM: c[k] = value(at + 2 * k, uint16_t{}) / 65535.0; break;
+                case VK_FORMAT_R16G16B16A16_SNORM: c[k] = std::max(value(at + 2 * k, int16_t{}) / 32767.0, -1.0); break;
+                case VK_FORMAT_R16G16B16A16_SFLOAT: c[k] = halfToFloat(uint16_t(value(at + 2 * k, uint16_t{}))); break;
+                default: c[k] = value(at + 4 * k, float{}); break;
+            }
         if (normals.encoding == ao::NormalEncoding::biased) c = c * 2.0 - 1.0;
         if (normals.encoding == ao::NormalEncoding::octahedral32) {
             c.z = 1.0 - std::abs(c.x) - std::abs(c.y);

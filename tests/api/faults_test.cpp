@@ -33,7 +33,8 @@ struct HostMemory {
     static inline long until = -1;
     static void* VKAPI_CALL allocate(void*, size_t bytes, size_t alignment, VkSystemAllocationScope) {
         if (until >= 0 && until-- == 0) return nullptr;
-        return std::aligned_alloc(std::max<size_t>(alignment, 16), (bytes + std::max<size_t>(alignment, 16) - 1) / std::max<size_t>(alignment, 16) * std::max<size_t>(alignment, 16));
+        return std::aligned_alloc(std::max<size_t>(alignment, 16),
+            (bytes + std::max<size_t>(alignment, 16) - 1) / std::max<size_t>(alignment, 16) * std::max<size_t>(alignment, 16));
     }
     static void* VKAPI_CALL reallocate(void*, void* old, size_t bytes, size_t, VkSystemAllocationScope) {
         if (until >= 0 && until-- == 0) return nullptr;
@@ -82,7 +83,8 @@ protected:
             Frame& f = large ? m_large : m_small;
             // The host caches images by name, so each frame uses its own names.
             f = m_host.frame({g}, picture, large ? " of the large" : " of the small");
-            f.motion = m_host.floats(large ? "motion of the large" : "motion of the small", VK_FORMAT_R32G32_SFLOAT, f.size, std::vector<float>(picture.depth.size() * 2, 0.0f));
+            f.motion = m_host.floats(large ? "motion of the large" : "motion of the small", VK_FORMAT_R32G32_SFLOAT, f.size,
+                std::vector<float>(picture.depth.size() * 2, 0.0f));
             if (large) m_size = g.visible;
         }
         ASSERT_EQ(create(m_desc, &m_host.context), Status::ok) << m_host.allSaid();
@@ -93,7 +95,8 @@ protected:
         done();
     }
     Status choose(const char* method) {
-        static const Setting both[] = {{"temporal", 0.9f}, {"offscreen", 2.0f}};  // of the methods with the off-screen pass only hbao turns it on
+        static const Setting both[] = {
+            {"temporal", 0.9f}, {"offscreen", 2.0f}};  // of the methods with the off-screen pass only hbao turns it on
         MethodSettings settings;
         if (findMethod(method)->needs) settings.settings = {both, std::string(method) == "hbao" && !m_desc.allocator ? 2u : 1u};
         return setMethod(m_host.context, method, settings);
@@ -271,35 +274,43 @@ TEST_F(Faulty, missingDeviceSupportIsNamed) {
         done();
     };
     Faults::edit = [](const char* name, void* answer) {
-        if (!std::strcmp(name, "GetPhysicalDeviceProperties")) static_cast<VkPhysicalDeviceProperties*>(answer)->apiVersion = VK_API_VERSION_1_2;
+        if (!std::strcmp(name, "GetPhysicalDeviceProperties"))
+            static_cast<VkPhysicalDeviceProperties*>(answer)->apiVersion = VK_API_VERSION_1_2;
     };
     refused("1.3");
     Faults::edit = [](const char* name, void* answer) {
         if (!std::strcmp(name, "GetPhysicalDeviceFeatures2"))
-            static_cast<VkPhysicalDeviceVulkan13Features*>(static_cast<VkPhysicalDeviceFeatures2*>(answer)->pNext)->synchronization2 = VK_FALSE;
+            static_cast<VkPhysicalDeviceVulkan13Features*>(static_cast<VkPhysicalDeviceFeatures2*>(answer)->pNext)->synchronization2 =
+                VK_FALSE;
     };
     refused("synchronization2");
     Faults::edit = [](const char* name, void* answer) {
-        if (!std::strcmp(name, "GetPhysicalDeviceFeatures2")) static_cast<VkPhysicalDeviceFeatures2*>(answer)->features.shaderStorageImageExtendedFormats = VK_FALSE;
+        if (!std::strcmp(name, "GetPhysicalDeviceFeatures2"))
+            static_cast<VkPhysicalDeviceFeatures2*>(answer)->features.shaderStorageImageExtendedFormats = VK_FALSE;
     };
     refused("shaderStorageImageExtendedFormats");
     Faults::edit = [](const char* name, void* answer) {
-        if (!std::strcmp(name, "GetPhysicalDeviceFormatProperties")) static_cast<VkFormatProperties*>(answer)->optimalTilingFeatures &= ~VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+        if (!std::strcmp(name, "GetPhysicalDeviceFormatProperties"))
+            static_cast<VkFormatProperties*>(answer)->optimalTilingFeatures &= ~VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
     };
     refused("storage image");
     Faults::edit = [](const char* name, void* answer) {
-        if (!std::strcmp(name, "GetPhysicalDeviceFormatProperties")) static_cast<VkFormatProperties*>(answer)->optimalTilingFeatures &= ~VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+        if (!std::strcmp(name, "GetPhysicalDeviceFormatProperties"))
+            static_cast<VkFormatProperties*>(answer)->optimalTilingFeatures &= ~VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
     };
     refused("Frame::depth");
     Faults::edit = [](const char* name, void* answer) {
-        if (!std::strcmp(name, "GetPhysicalDeviceProperties")) static_cast<VkPhysicalDeviceProperties*>(answer)->limits.maxImageDimension2D = 16;
+        if (!std::strcmp(name, "GetPhysicalDeviceProperties"))
+            static_cast<VkPhysicalDeviceProperties*>(answer)->limits.maxImageDimension2D = 16;
     };
     refused("Frame::size");
     Faults::edit = nullptr;
     m_desc.queueFamily = 99;
     refused("queueFamily");
     m_desc.queueFamily = m_device.queueFamily();
-#define OBSCURA_MISS(name) Faults::missing = "vk" #name; refused("vk" #name);
+#define OBSCURA_MISS(name)        \
+    Faults::missing = "vk" #name; \
+    refused("vk" #name);
     OBSCURA_VK_INSTANCE(OBSCURA_MISS)
     OBSCURA_VK_DEVICE(OBSCURA_MISS)
 #undef OBSCURA_MISS
@@ -351,9 +362,14 @@ TEST_F(Faulty, invalidInputNamesItsField) {
         named("Frame::" + word, m_host.record(f).status);
         ++cases;
     };
-    const struct { const char* name; ImageView* (*of)(Frame&); std::vector<VkFormat> wrong; } images[] = {
+    const struct {
+        const char* name;
+        ImageView* (*of)(Frame&);
+        std::vector<VkFormat> wrong;
+    } images[] = {
         {"depth", [](Frame& f) { return &f.depth; }, {VK_FORMAT_R8_UNORM, VK_FORMAT_R32_UINT, VK_FORMAT_D16_UNORM, VK_FORMAT_S8_UINT}},
-        {"normals", [](Frame& f) { return &f.normals; }, {VK_FORMAT_R32_UINT, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB}},
+        {"normals", [](Frame& f) { return &f.normals; },
+            {VK_FORMAT_R32_UINT, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB}},
         {"motion", [](Frame& f) { return &f.motion; }, {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R8G8_UNORM}},
         {"layers.thickness", [](Frame& f) { return &f.layers.thickness; }, {VK_FORMAT_R32_UINT, VK_FORMAT_D32_SFLOAT}},
         {"layers.second", [](Frame& f) { return &f.layers.second; }, {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_UINT}}};

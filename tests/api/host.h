@@ -43,24 +43,29 @@ public:
     }
 
     // Uploads an image and leaves it in `layout`. Images are cached by name and recreated when their description changes.
-    ao::ImageView image(const std::string& name, VkFormat format, VkExtent2D size, const std::vector<std::byte>& texels, VkImageLayout layout) {
-        const VkImageAspectFlags aspect = gpu::aspectOf(format) & VK_IMAGE_ASPECT_DEPTH_BIT ? VkImageAspectFlags(VK_IMAGE_ASPECT_DEPTH_BIT) : VkImageAspectFlags(VK_IMAGE_ASPECT_COLOR_BIT);
+    ao::ImageView image(
+        const std::string& name, VkFormat format, VkExtent2D size, const std::vector<std::byte>& texels, VkImageLayout layout) {
+        const VkImageAspectFlags aspect = gpu::aspectOf(format) & VK_IMAGE_ASPECT_DEPTH_BIT ? VkImageAspectFlags(VK_IMAGE_ASPECT_DEPTH_BIT)
+                                                                                            : VkImageAspectFlags(VK_IMAGE_ASPECT_COLOR_BIT);
         const VkImageUsageFlags attachment = aspect == VK_IMAGE_ASPECT_DEPTH_BIT ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : 0;
-        const gpu::ImageDesc desc{format, size.width, size.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | attachment};
+        const gpu::ImageDesc desc{
+            format, size.width, size.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | attachment};
         gpu::Image& made = m_images[name];
         if (!made || !(made.desc() == desc)) {
             EXPECT_EQ(gpu::Image::create(m_device, desc, name.c_str(), made), gpu::Status::ok);
         }
         EXPECT_EQ(texels.size(), size_t(size.width) * size.height * texelBytes(format)) << name;
         gpu::Buffer staging;
-        EXPECT_EQ(gpu::Buffer::create(m_device, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::upload, "staging", staging), gpu::Status::ok);
+        EXPECT_EQ(gpu::Buffer::create(m_device, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::upload, "staging", staging),
+            gpu::Status::ok);
         std::memcpy(staging.mapped(), texels.data(), texels.size());
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) {
             change(cmd, made.handle(), gpu::aspectOf(format), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
             const VkBufferImageCopy region{0, 0, 0, {aspect, 0, 0, 1}, {}, {size.width, size.height, 1}};
             m_device.vk().CmdCopyBufferToImage(cmd, staging.handle(), made.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
             change(cmd, made.handle(), gpu::aspectOf(format), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, layout);
-        }), gpu::Status::ok);
+        }),
+            gpu::Status::ok);
         return {made.handle(), made.view(), format, layout};
     }
     ao::ImageView floats(const std::string& name, VkFormat format, VkExtent2D size, const std::vector<float>& texels) {
@@ -85,7 +90,8 @@ public:
         f.depth = image("depth" + set, shot.depth.format, f.size, encodeDepth(g, shot.depth, picture), shot.depth.layout);
         if (shot.depth.kind == Depth::linear) f.skyDepth = float(9e3 * g.scale);
         if (!shot.normals.none) {
-            f.normals = image("normals" + set, shot.normals.format, f.size, encodeNormals(g, shot.normals, picture), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            f.normals = image("normals" + set, shot.normals.format, f.size, encodeNormals(g, shot.normals, picture),
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
             f.normalKind = shot.normals.kind;
             f.normalEncoding = shot.normals.encoding;
         }
@@ -97,7 +103,7 @@ public:
         return f;
     }
 
-    bool submits = true;  // false: nothing is submitted, so the driver compiles nothing; constant for the life of a context
+    bool submits = true;      // false: nothing is submitted, so the driver compiles nothing; constant for the life of a context
     int* ownCalls = nullptr;  // incremented during the host's own Vulkan calls in record(), in which drivers and layers allocate
     // Submits the commands and waits, unless record() failed: then the command buffer is discarded.
     ao::Output record(const ao::Frame& frame) {
@@ -105,12 +111,15 @@ public:
         ++own;
         const gpu::Api& vk = m_device.vk();
         if (!m_pool) {
-            const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, m_device.queueFamily()};
+            const VkCommandPoolCreateInfo pool{
+                VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, m_device.queueFamily()};
             EXPECT_EQ(vk.CreateCommandPool(m_device.handle(), &pool, nullptr, &m_pool), VK_SUCCESS);
-            const VkCommandBufferAllocateInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, m_pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+            const VkCommandBufferAllocateInfo one{
+                VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, m_pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
             EXPECT_EQ(vk.AllocateCommandBuffers(m_device.handle(), &one, &m_cmd), VK_SUCCESS);
         }
-        const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+        const VkCommandBufferBeginInfo begin{
+            VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
         EXPECT_EQ(vk.ResetCommandPool(m_device.handle(), m_pool, 0), VK_SUCCESS);
         EXPECT_EQ(vk.BeginCommandBuffer(m_cmd, &begin), VK_SUCCESS);
         --own;
@@ -130,7 +139,8 @@ public:
     }
     std::vector<float> pixels(const ao::Output& output, VkExtent2D size) {
         std::vector<std::byte> bytes;
-        EXPECT_EQ(gpu::download(m_device, output.image, {VK_FORMAT_R16_SFLOAT, size.width, size.height}, output.layout, bytes), gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::download(m_device, output.image, {VK_FORMAT_R16_SFLOAT, size.width, size.height}, output.layout, bytes), gpu::Status::ok);
         std::vector<float> result(bytes.size() / 2);
         for (size_t i = 0; i < result.size(); ++i) {
             uint16_t half = 0;
@@ -170,7 +180,9 @@ private:
     void volume(const Geometry& g, ao::Volume& v) {
         if (!m_bits) {
             static const std::vector<uint32_t> bits = voxelize();
-            EXPECT_EQ(gpu::Buffer::create(m_device, bits.size() * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::device, "bits", m_bits), gpu::Status::ok);
+            EXPECT_EQ(
+                gpu::Buffer::create(m_device, bits.size() * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::device, "bits", m_bits),
+                gpu::Status::ok);
             EXPECT_EQ(gpu::upload(m_device, m_bits, std::as_bytes(std::span(bits))), gpu::Status::ok);
         }
         const glm::dmat3 axes = g.camera.axes();

@@ -34,7 +34,10 @@ public:
     }
 
 private:
-    struct Kept { VkPipeline pipeline = VK_NULL_HANDLE; long owners = 0; };
+    struct Kept {
+        VkPipeline pipeline = VK_NULL_HANDLE;
+        long owners = 0;
+    };
     static inline VkDevice s_device = VK_NULL_HANDLE;
     static inline gpu::Api s_real;
     static inline std::map<VkShaderModule, std::string> s_code;  // SPIR-V
@@ -47,15 +50,14 @@ private:
         if (!std::strcmp(name, "vkDestroyPipeline")) return reinterpret_cast<PFN_vkVoidFunction>(&destroyPipeline);
         return s_real.GetDeviceProcAddr(device, name);
     }
-    static VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks* host,
-                                                  VkShaderModule* made) {
+    static VkResult VKAPI_CALL createShaderModule(
+        VkDevice device, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks* host, VkShaderModule* made) {
         const VkResult result = s_real.CreateShaderModule(device, info, host, made);
         if (result == VK_SUCCESS) s_code[*made].assign(reinterpret_cast<const char*>(info->pCode), info->codeSize);
         return result;
     }
     static VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
-                                                      const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* host,
-                                                      VkPipeline* made) {
+        const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* host, VkPipeline* made) {
         EXPECT_EQ(count, 1u);
         EXPECT_EQ(host, nullptr) << "a pipeline from a host's own memory cannot be shared";
         std::string key = s_code[infos->stage.module];

@@ -13,13 +13,15 @@
 
 namespace obscura::test {
 
-struct Box { glm::dvec3 low, high; };
-inline constexpr Box kBoxes[] = {{{-3, -0.2, -3}, {3, 0, 3}},        {{-3, 0, -3}, {3, 2, -2.8}},         {{2.8, 0, -2.8}, {3, 1.2, 0}},
-                                 {{-1.5, 0, -1.5}, {-0.5, 1, -0.5}}, {{1.0, 0, 0.0}, {1.1, 1.6, 0.1}}};
+struct Box {
+    glm::dvec3 low, high;
+};
+inline constexpr Box kBoxes[] = {{{-3, -0.2, -3}, {3, 0, 3}}, {{-3, 0, -3}, {3, 2, -2.8}}, {{2.8, 0, -2.8}, {3, 1.2, 0}},
+    {{-1.5, 0, -1.5}, {-0.5, 1, -0.5}}, {{1.0, 0, 0.0}, {1.1, 1.6, 0.1}}};
 inline constexpr glm::dvec3 kBall{0.3, 0.5, 0.6};
 inline constexpr double kRadius = 0.5;
-inline constexpr uint32_t kCells = 128;        // a side of the volume, whose middle is the origin of the world
-inline constexpr double kCell = 0.0625;        // metres
+inline constexpr uint32_t kCells = 128;  // a side of the volume, whose middle is the origin of the world
+inline constexpr double kCell = 0.0625;  // metres
 
 struct Camera {
     glm::dvec3 eye{-1.5, 3.2, 6.5}, target{0, 0.4, -0.5};
@@ -33,10 +35,10 @@ struct Camera {
 struct Geometry {
     VkExtent2D visible{160, 90}, guard{16, 16};
     bool orthographic = false, flipped = false;
-    glm::dvec2 shift{0, 0};                    // off-centre: eye.xy per metre of depth in the middle of the image
-    double scale = 1.0;                        // of the world
-    Camera camera;                             // of the world at scale 1
-    glm::dvec3 origin{0, 0, 0};                // origin of the scene in the host's world, metres
+    glm::dvec2 shift{0, 0};      // off-centre: eye.xy per metre of depth in the middle of the image
+    double scale = 1.0;          // of the world
+    Camera camera;               // of the world at scale 1
+    glm::dvec3 origin{0, 0, 0};  // origin of the scene in the host's world, metres
 
     VkExtent2D size() const { return {visible.width + 2 * guard.width, visible.height + 2 * guard.height}; }
     double focal() const { return 0.5 * std::max(double(visible.height), visible.width * 9.0 / 16.0) / std::tan(0.5236); }  // px
@@ -49,11 +51,14 @@ struct Geometry {
         const glm::dvec2 s = glm::dvec2(eyeSpace) / (orthographic ? kMiddle * scale : -eyeSpace.z) - shift;
         return {s.x * focal() + 0.5 * size().width - 0.5, s.y * focal() * (flipped ? 1.0 : -1.0) + 0.5 * size().height - 0.5};
     }
-    static constexpr double kMiddle = 7.0;     // metres: depth at which the orthographic image has the perspective scale
+    static constexpr double kMiddle = 7.0;  // metres: depth at which the orthographic image has the perspective scale
 };
 
 // Depths at which a ray enters and leaves solids.
-struct Span { double enter, leave; glm::dvec3 normal; };
+struct Span {
+    double enter, leave;
+    glm::dvec3 normal;
+};
 
 inline std::vector<Span> spansAlong(const glm::dvec3& from, const glm::dvec3& along) {
     std::vector<Span> spans;
@@ -138,11 +143,15 @@ inline std::vector<uint32_t> voxelize() {
                 const glm::dvec3 middle = (glm::dvec3(x, y, z) + 0.5 - 0.5 * kCells) * kCell;
                 bool set = std::abs(glm::length(middle - kBall) - kRadius) <= corner;
                 for (const Box& box : kBoxes) {
-                    const bool touches = glm::all(glm::greaterThanEqual(middle + half, box.low)) && glm::all(glm::lessThanEqual(middle - half, box.high));
-                    const bool within = glm::all(glm::greaterThan(middle - half, box.low)) && glm::all(glm::lessThan(middle + half, box.high));
+                    const bool touches =
+                        glm::all(glm::greaterThanEqual(middle + half, box.low)) && glm::all(glm::lessThanEqual(middle - half, box.high));
+                    const bool within =
+                        glm::all(glm::greaterThan(middle - half, box.low)) && glm::all(glm::lessThan(middle + half, box.high));
                     set |= touches && !within;
                 }
-                if (set) bits[(((x / 8) * (kCells / 8) + y / 8) * (kCells / 8) + z / 8) * 16 + (x & 7) * 2 + ((y & 7) >> 2)] |= 1u << ((y & 3) * 8 + (z & 7));
+                if (set)
+                    bits[(((x / 8) * (kCells / 8) + y / 8) * (kCells / 8) + z / 8) * 16 + (x & 7) * 2 + ((y & 7) >> 2)] |=
+                        1u << ((y & 3) * 8 + (z & 7));
             }
     return bits;
 }

@@ -29,14 +29,18 @@ protected:
     gpu::Device& m_device = test::device();
     test::Host m_host{m_device};
     std::mt19937 m_random{20130717};
-    std::vector<Frame> m_scenes;           // frames of several sizes, cameras and conventions
+    std::vector<Frame> m_scenes;  // frames of several sizes, cameras and conventions
     test::VulkanCounter m_counter{m_device};
-    struct Work { size_t dispatches = 0; uint64_t workgroups = 0; bool operator==(const Work&) const = default; };
-    std::map<std::string, Work> m_work;    // of a warm frame, by kind
-    uint32_t m_warm = 0, m_compared = 0;   // frames: warm ones, and those whose kind was recorded before
-    uint64_t m_dispatches = 0;             // in warm frames
+    struct Work {
+        size_t dispatches = 0;
+        uint64_t workgroups = 0;
+        bool operator==(const Work&) const = default;
+    };
+    std::map<std::string, Work> m_work;   // of a warm frame, by kind
+    uint32_t m_warm = 0, m_compared = 0;  // frames: warm ones, and those whose kind was recorded before
+    uint64_t m_dispatches = 0;            // in warm frames
     std::string m_last;
-    uint32_t m_streak = 0;                 // frames of the same kind before this one
+    uint32_t m_streak = 0;  // frames of the same kind before this one
 
     void TearDown() override {
         m_host.clear();
@@ -54,7 +58,8 @@ protected:
             g.orthographic = i == 5;
             const test::Picture picture = test::trace(g);
             const std::string set = " " + std::to_string(i);
-            Frame f = m_host.frame({g, {i % 2 ? test::Depth::linear : test::Depth::reversed, VK_FORMAT_R32_SFLOAT}, {i == 3}}, picture, set);
+            Frame f =
+                m_host.frame({g, {i % 2 ? test::Depth::linear : test::Depth::reversed, VK_FORMAT_R32_SFLOAT}, {i == 3}}, picture, set);
             f.motion = m_host.floats("motion" + set, VK_FORMAT_R32G32_SFLOAT, f.size, std::vector<float>(picture.depth.size() * 2, 0.25f));
             m_scenes.push_back(f);
         }
@@ -70,12 +75,15 @@ protected:
         Setting setting{};
         if (info.parameters.size() && any(2)) {
             const Parameter& parameter = info.parameters[any(uint32_t(info.parameters.size()))];
-            setting = {parameter.id, parameter.minimum + (std::min(parameter.maximum, 2.0f * std::max(parameter.initial, 1.0f)) - parameter.minimum) * float(any(5)) / 4.0f};
+            setting = {parameter.id,
+                parameter.minimum +
+                    (std::min(parameter.maximum, 2.0f * std::max(parameter.initial, 1.0f)) - parameter.minimum) * float(any(5)) / 4.0f};
             settings.settings = {&setting, 1};
         }
         ASSERT_EQ(setMethod(m_host.context, info.id, settings), Status::ok) << m_host.allSaid();
-        label = std::string(info.id) + "." + preset.id + "." + (settings.resolve ? settings.resolve : "") + "." + (setting.id ? setting.id : "") + std::to_string(setting.value) +
-                std::to_string(int(settings.falloff.kind)) + std::to_string(settings.falloff.length);
+        label = std::string(info.id) + "." + preset.id + "." + (settings.resolve ? settings.resolve : "") + "." +
+                (setting.id ? setting.id : "") + std::to_string(setting.value) + std::to_string(int(settings.falloff.kind)) +
+                std::to_string(settings.falloff.length);
     }
     void run(Frame f, const std::string& label) {
         m_counter.clear();
@@ -152,8 +160,9 @@ TEST_F(Soak, longRunLeaksNothingAndStaysWarm) {
     round();
     device[1] = memoryUse(m_host.context);
     resident[1] = residentBytes();
-    std::printf("  %u frames, %u switches, %u resizes, %u cuts; device memory %.2f to %.2f MiB, resident %.1f to %.1f MiB\n", done, switches, resizes, cuts,
-                double(device[0]) / 1048576, double(device[1]) / 1048576, double(resident[0]) / 1048576, double(resident[1]) / 1048576);
+    std::printf("  %u frames, %u switches, %u resizes, %u cuts; device memory %.2f to %.2f MiB, resident %.1f to %.1f MiB\n", done,
+        switches, resizes, cuts, double(device[0]) / 1048576, double(device[1]) / 1048576, double(resident[0]) / 1048576,
+        double(resident[1]) / 1048576);
     std::printf("  %u warm frames, %u compared with others of their kind\n", m_warm, m_compared);
     EXPECT_EQ(device[1], device[0]);
     EXPECT_GT(m_warm, frames / 30);

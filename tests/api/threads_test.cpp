@@ -28,15 +28,18 @@ struct Loop {
         if (const Status status = create(desc, &context); status != Status::ok) return failed.push_back(status);
         VkCommandPool pool = VK_NULL_HANDLE;
         VkCommandBuffer cmd = VK_NULL_HANDLE;
-        const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device.queueFamily()};
+        const VkCommandPoolCreateInfo poolInfo{
+            VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device.queueFamily()};
         vk.CreateCommandPool(device.handle(), &poolInfo, nullptr, &pool);
-        const VkCommandBufferAllocateInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+        const VkCommandBufferAllocateInfo one{
+            VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
         vk.AllocateCommandBuffers(device.handle(), &one, &cmd);
         for (uint32_t i = 0; i < 2 * methods().size(); ++i) {
             const MethodInfo& info = *methods()[(i + seed) % methods().size()];
             if (const Status status = setMethod(context, info.id, {}); status != Status::ok) failed.push_back(status);
             for (int repeat = 0; repeat < 2; ++repeat) {
-                const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+                const VkCommandBufferBeginInfo begin{
+                    VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
                 vk.ResetCommandPool(device.handle(), pool, 0);
                 vk.BeginCommandBuffer(cmd, &begin);
                 const Output output = record(context, cmd, frame);

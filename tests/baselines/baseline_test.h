@@ -23,12 +23,15 @@ protected:
     }
 
     // Rows of the floor in front of the wall: distance to it, metres, and mean obscurance of the middle of the row.
-    struct Row { double away, obscurance; };
+    struct Row {
+        double away, obscurance;
+    };
     static std::vector<Row> rowsBeforeWall(const Room& room, const Picture& picture) {
         std::vector<Row> rows;
         for (uint32_t y = room.guard; y < room.height - room.guard; ++y) {
             Row row{0, 0};
-            for (uint32_t x = 60; x < 140; ++x) row.obscurance += picture[size_t(y - room.guard) * room.visibleWidth() + x - room.guard] / 80.0;
+            for (uint32_t x = 60; x < 140; ++x)
+                row.obscurance += picture[size_t(y - room.guard) * room.visibleWidth() + x - room.guard] / 80.0;
             const glm::vec3 p = pointAt(room, 100, y);
             row.away = p.z + 5.0;
             if (p.y < -1.49f && row.away > 0.1 && row.away < 1.2) rows.push_back(row);

@@ -30,7 +30,8 @@ TEST_F(Scalable, equalsThePublishedSumBesideAWall) {
         for (int i = 0; i < 100; ++i)
             for (int j = 0; j < 256; ++j) {
                 const double l = (i + 0.5) / 100.0 * reach, angle = (j + 0.5) / 256.0 * 6.283185307;
-                const int x = std::clamp(int(100 + int(l * std::cos(angle))), 0, int(room.width) - 1), row = std::clamp(int(y) + int(l * std::sin(angle)), 0, int(room.height) - 1);
+                const int x = std::clamp(int(100 + int(l * std::cos(angle))), 0, int(room.width) - 1),
+                          row = std::clamp(int(y) + int(l * std::sin(angle)), 0, int(room.height) - 1);
                 const glm::dvec3 v = glm::dvec3(pointAt(room, uint32_t(x), uint32_t(row))) - glm::dvec3(p);
                 const double vv = glm::dot(v, v), f = std::max(radius * radius - vv, 0.0);
                 expected += f * f * f * std::max((v.y - bias) / (0.0025 * radius * radius + vv), 0.0) / 25600.0;
@@ -45,13 +46,15 @@ TEST_F(Scalable, equalsThePublishedSumBesideAWall) {
 
 TEST_F(Scalable, intensityScalesObscurance) {
     const Room room = roomOf({floor(), wall()});
-    const double once = mean(run(room, values({{"intensity", 0.1f}, {"denoise", 0}}), "quadratic:1")), twice = mean(run(room, values({{"intensity", 0.2f}, {"denoise", 0}}), "quadratic:1"));
+    const double once = mean(run(room, values({{"intensity", 0.1f}, {"denoise", 0}}), "quadratic:1")),
+                 twice = mean(run(room, values({{"intensity", 0.2f}, {"denoise", 0}}), "quadratic:1"));
     EXPECT_NEAR(twice, 2.0 * once, 0.03 * once);
 }
 
 // The bilateral blur does not mix depths: a sheet 1 m in front of the wall stays open.
 TEST_F(Scalable, blurStopsAtDepthEdges) {
-    const Room room = roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::box, {0, 0, -3}, {0.8f, 3, 0.05f}}});
+    const Room room =
+        roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::box, {0, 0, -3}, {0.8f, 3, 0.05f}}});
     const Picture raw = run(room, values({{"denoise", 0}}), "quadratic:1"), blurred = run(room, values({}), "quadratic:1");
     for (uint32_t x = 0; x < room.visibleWidth(); ++x)
         if (room.depth[size_t(40) * room.width + x + room.guard] < 3.5f && raw[size_t(20) * room.visibleWidth() + x] == 0.0f) {

@@ -19,10 +19,12 @@ TEST_F(Ssao, tunedEqualsObscuranceBesideAWall) {
     const Room room = roomOf({floor(), wall()});
     ao::Falloff rho;
     ASSERT_TRUE(ao::parseFalloff("linear:1", rho));
-    const std::vector<Row> rows = rowsBeforeWall(room, run(room, values({{"samples", 256}, {"radius_scale", 1}, {"bias", 0.002f}, {"denoise", 0}}, "tuned"), "linear:1"));
+    const std::vector<Row> rows = rowsBeforeWall(
+        room, run(room, values({{"samples", 256}, {"radius_scale", 1}, {"bias", 0.002f}, {"denoise", 0}}, "tuned"), "linear:1"));
     ASSERT_GE(rows.size(), 3u);
     for (const Row& row : rows)
-        EXPECT_NEAR(row.obscurance, beforeWall(row.away, true, [&](double d) { return double(ao::evaluate(rho, float(d))); }), 0.025) << row.away;
+        EXPECT_NEAR(row.obscurance, beforeWall(row.away, true, [&](double d) { return double(ao::evaluate(rho, float(d))); }), 0.025)
+            << row.away;
 }
 
 // Published sample points: uniform directions, at u mix(0.1, 1, v^2) of five times the falloff's mean length.
@@ -40,12 +42,17 @@ TEST_F(Ssao, defaultEqualsThePublishedIntegralBesideAWall) {
     const std::vector<Row> rows = rowsBeforeWall(room, run(room, values({{"samples", 256}, {"bias", 0.04f}, {"denoise", 0}}), "linear:1"));
     ASSERT_GE(rows.size(), 3u);
     for (const Row& row : rows)
-        if (row.away > 0.3) { EXPECT_NEAR(row.obscurance, beforeWall(row.away, false, beyond), 0.035) << row.away; }
+        if (row.away > 0.3) {
+            EXPECT_NEAR(row.obscurance, beforeWall(row.away, false, beyond), 0.035) << row.away;
+        }
 }
 
 // An occluder far in front of the wall is faded out by the smoothstep range check.
 TEST_F(Ssao, rangeCheckFadesFarOccluders) {
-    const auto beside = [&](float z) { return mean(run(roomOf({{Kind::plane, {0, 0, -20}, {0, 0, 1}}, {Kind::box, {0, 0, z}, {0.1f * -z, 3, 0.05f}}}), values({}), "quadratic:1")); };
+    const auto beside = [&](float z) {
+        return mean(
+            run(roomOf({{Kind::plane, {0, 0, -20}, {0, 0, 1}}, {Kind::box, {0, 0, z}, {0.1f * -z, 3, 0.05f}}}), values({}), "quadratic:1"));
+    };
     EXPECT_LT(beside(-3.0f), 0.5 * beside(-19.0f));
 }
 
@@ -55,10 +62,12 @@ TEST_F(Ssao, blurRemovesTheTilePattern) {
     const auto roughness = [&](const Picture& picture) {
         double sum = 0.0;
         for (uint32_t y = 50; y < 60; ++y)
-            for (uint32_t x = 60; x < 100; ++x) sum += std::fabs(picture[y * room.visibleWidth() + x] - picture[y * room.visibleWidth() + x + 1]);
+            for (uint32_t x = 60; x < 100; ++x)
+                sum += std::fabs(picture[y * room.visibleWidth() + x] - picture[y * room.visibleWidth() + x + 1]);
         return sum / 400.0;
     };
-    const Picture raw = run(room, values({{"samples", 16}, {"denoise", 0}}), "linear:1"), blurred = run(room, values({{"samples", 16}}), "linear:1");
+    const Picture raw = run(room, values({{"samples", 16}, {"denoise", 0}}), "linear:1"),
+                  blurred = run(room, values({{"samples", 16}}), "linear:1");
     EXPECT_LT(roughness(blurred), 0.25 * roughness(raw));
     EXPECT_NEAR(mean(blurred), mean(raw), 0.002);
 }

@@ -26,7 +26,8 @@ TEST_F(Volumetric, equalsTheSphericalCapBesideAWall) {
     const Room room = roomOf({floor(), wall()});
     for (const float solid : {1.0f, 2.0f}) {
         const double radius = 2.0 / 3.0 / (solid == 1.0f ? 0.75 : 1.2);  // quadratic:1 has a mean of 2/3 m
-        const std::vector<Row> rows = rowsBeforeWall(room, run(room, values({{"solid", solid}, {"lines", 64}, {"denoise", 0}}), "quadratic:1"));
+        const std::vector<Row> rows =
+            rowsBeforeWall(room, run(room, values({{"solid", solid}, {"lines", 64}, {"denoise", 0}}), "quadratic:1"));
         ASSERT_GE(rows.size(), 3u);
         for (const Row& row : rows) {
             const double h = std::min(row.away / radius, 1.0);

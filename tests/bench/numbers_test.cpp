@@ -27,7 +27,8 @@ TEST(Bench, resultsRoundTripThroughTheirFile) {
 }
 
 TEST(Bench, frontHoldsUndominatedRows) {
-    const Results r = results({row("slow", "", 9.0, 0.020), row("quick", "", 1.0, 0.080), row("worse", "", 5.0, 0.060), row("middle", "", 4.0, 0.040), row("none", "", 0.01, 0.3)});
+    const Results r = results({row("slow", "", 9.0, 0.020), row("quick", "", 1.0, 0.080), row("worse", "", 5.0, 0.060),
+        row("middle", "", 4.0, 0.040), row("none", "", 0.01, 0.3)});
     const std::vector<Front> list = fronts(r);
     ASSERT_EQ(list.size(), 1u);
     EXPECT_EQ(list[0].line, (std::vector<size_t>{1, 3, 0}));
@@ -36,7 +37,8 @@ TEST(Bench, frontHoldsUndominatedRows) {
 
 TEST(Bench, gapsAreBudgetsWhereABaselineLeads) {
     // A baseline method at 1 ms before any of ours, ours from 2 ms on, the baseline again from 6 ms, ours from 8 ms.
-    const Results r = results({row("yard", "a", 1.0, 0.08, true), row("ours", "a", 2.0, 0.05), row("yard", "b", 6.0, 0.04, true), row("ours", "b", 8.0, 0.03)});
+    const Results r = results(
+        {row("yard", "a", 1.0, 0.08, true), row("ours", "a", 2.0, 0.05), row("yard", "b", 6.0, 0.04, true), row("ours", "b", 8.0, 0.03)});
     const std::vector<Front> list = fronts(r);
     ASSERT_EQ(list[0].gaps.size(), 2u);
     EXPECT_TRUE(list[0].both);
@@ -149,21 +151,23 @@ TEST_F(Compared, incomparableRunsAreReported) {
 }
 
 TEST(Bench, tableMarksTheBestAndReplacesTheMarkedSection) {
-    const Results r = results({row("quick", "", 1.0, 0.08), row("yard", "", 2.0, 0.09, true), row("slow", "x=1", 4.0, 0.02), row("dear", "x=2", 8.0, 0.03)});
+    const Results r = results(
+        {row("quick", "", 1.0, 0.08), row("yard", "", 2.0, 0.09, true), row("slow", "x=1", 4.0, 0.02), row("dear", "x=2", 8.0, 0.03)});
     const std::string all = markdown(r), brief = briefTable(r);
     EXPECT_NE(all.find("| **quick** | 1.00 |"), std::string::npos);
     EXPECT_NE(all.find("| yard (baseline) | 2.00 |"), std::string::npos);
     EXPECT_NE(all.find("| dear x=2 |"), std::string::npos);
     EXPECT_NE(brief.find("| **slow x=1** |"), std::string::npos);
     EXPECT_EQ(brief.find("dear"), std::string::npos);
-    const std::string table = briefTable(results({row("hbao", "", 1.0, 0.08, true), row("layered", "", 2.0, 0.04), row("hybrid", "", 3.0, 0.09), row("gtao", "", 4.0, 0.09, true)}));
+    const std::string table = briefTable(results(
+        {row("hbao", "", 1.0, 0.08, true), row("layered", "", 2.0, 0.04), row("hybrid", "", 3.0, 0.09), row("gtao", "", 4.0, 0.09, true)}));
     EXPECT_NE(table.find("(baseline) | Bavoil, Sainz, Dimitrov 2008 | depth, normals, (layers) | 1.00 |"), std::string::npos) << table;
     EXPECT_NE(table.find("| **layered** | our own | depth, normals, (layers) |"), std::string::npos);
     EXPECT_NE(table.find("| depth, normals, voxels | 3.00 |"), std::string::npos);
     EXPECT_NE(table.find("| Jimenez, Wu, Pesce, Jarabo 2016; XeGTAO, Strugar, McCalla 2021 |"), std::string::npos);
     EXPECT_EQ(citation("Timonen: Screen-Space Far-Field, HPG 2013, section 5"), "Timonen 2013");
     EXPECT_EQ(citation("Mittring: Finding Next Gen, CryEngine 2, SIGGRAPH 2007 courses; hemisphere form: de Vries, LearnOpenGL"),
-              "Mittring 2007; hemisphere form: de Vries, LearnOpenGL");
+        "Mittring 2007; hemisphere form: de Vries, LearnOpenGL");
     EXPECT_EQ(citation(""), "");
     const std::string page = std::string("before\n") + kTableBegin + "\nold\n" + kTableEnd + "\nafter\n";
     EXPECT_EQ(withTable(page, "new\n", "x.md"), std::string("before\n") + kTableBegin + "\nnew\n" + kTableEnd + "\nafter\n");
@@ -171,11 +175,13 @@ TEST(Bench, tableMarksTheBestAndReplacesTheMarkedSection) {
 }
 
 TEST(Bench, listsOfSettingsExpandToEveryCombination) {
-    const auto list = evaluate::variants({"hbao", "hybrid"}, {"default"}, {"hbao.steps=4,8", "hbao.directions=2,3", "voxels=64,128", "temporal=0.5"});
+    const auto list =
+        evaluate::variants({"hbao", "hybrid"}, {"default"}, {"hbao.steps=4,8", "hbao.directions=2,3", "voxels=64,128", "temporal=0.5"});
     std::vector<std::string> labels;
     for (const evaluate::Candidate& candidate : list) labels.push_back(candidate.label());
-    EXPECT_EQ(labels, (std::vector<std::string>{"hbao steps=4 directions=2 temporal=0.5", "hbao steps=4 directions=3 temporal=0.5", "hbao steps=8 directions=2 temporal=0.5",
-                                                "hbao steps=8 directions=3 temporal=0.5", "hybrid voxels=64 temporal=0.5", "hybrid voxels=128 temporal=0.5"}));
+    EXPECT_EQ(labels, (std::vector<std::string>{"hbao steps=4 directions=2 temporal=0.5", "hbao steps=4 directions=3 temporal=0.5",
+                          "hbao steps=8 directions=2 temporal=0.5", "hbao steps=8 directions=3 temporal=0.5",
+                          "hybrid voxels=64 temporal=0.5", "hybrid voxels=128 temporal=0.5"}));
     EXPECT_EQ(list[0].varied, (std::vector<std::string>{"steps", "directions"}));
     EXPECT_EQ(list[4].voxels.over({}).cells, 64u);
     EXPECT_EQ(list[5].voxels.over({}).cells, 128u);

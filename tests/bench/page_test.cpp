@@ -36,8 +36,9 @@ TEST(BenchPage, drawsChartsAndLabelsDots) {
             EXPECT_EQ(browser->evaluate("document.querySelectorAll('#table tbody tr').length"), 5);
             EXPECT_TRUE(browser->evaluate("document.documentElement.scrollWidth <= innerWidth").get<bool>());
         }
-        const auto at = browser->evaluate("(() => { const dot = document.querySelector('#fronts circle.dot'); dot.scrollIntoView({block: 'center'}); "
-                                          "const r = dot.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()");
+        const auto at = browser->evaluate(
+            "(() => { const dot = document.querySelector('#fronts circle.dot'); dot.scrollIntoView({block: 'center'}); "
+            "const r = dot.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()");
         browser->click(at[0], at[1]);
         EXPECT_EQ(browser->evaluate("document.querySelectorAll('#fronts circle.dot.marked').length"), 1);
         EXPECT_EQ(browser->evaluate("document.querySelector('#passes td').textContent"), "layered.only");

@@ -1,6 +1,5 @@
 // Compiles the public header alone, and twice.
 #include "obscura/ao.h"
-#include "obscura/ao.h"
 
 obscura::ao::Output touch(obscura::ao::Context* context, VkCommandBuffer cmd) {
     obscura::ao::Frame frame;

@@ -11,20 +11,17 @@
 
 namespace obscura::content {
 
-const kit::Scene& toasters()
-{
+const kit::Scene& toasters() {
     static const kit::Scene scene = obscura::toasters::buildScene();
     return scene;
 }
 
-const kit::Scene& atrium()
-{
+const kit::Scene& atrium() {
     static const kit::Scene scene = obscura::atrium::buildScene();
     return scene;
 }
 
-int openEdges(const kit::Mesh& mesh, std::uint32_t ignoredMaterial)
-{
+int openEdges(const kit::Mesh& mesh, std::uint32_t ignoredMaterial) {
     using Point = std::tuple<long, long, long>;
     const auto pointAt = [&](std::uint32_t index) {
         constexpr float kCellsPerMetre = 20000.0f;
@@ -33,21 +30,17 @@ int openEdges(const kit::Mesh& mesh, std::uint32_t ignoredMaterial)
     };
     std::map<std::pair<Point, Point>, int> balance;
     for (const kit::Triangle& triangle : mesh.triangles) {
-        if (triangle.material == ignoredMaterial)
-            continue;
+        if (triangle.material == ignoredMaterial) continue;
         for (int i = 0; i < 3; ++i) {
             const Point a = pointAt(triangle.corner[i]);
             const Point b = pointAt(triangle.corner[(i + 1) % 3]);
-            if (a < b)
-                ++balance[{a, b}];
-            else if (b < a)
-                --balance[{b, a}];
+            if (a < b) ++balance[{a, b}];
+            else if (b < a) --balance[{b, a}];
         }
     }
     int open = 0;
-    for (const auto& [edge, sum] : balance)
-        open += std::abs(sum);
+    for (const auto& [edge, sum] : balance) open += std::abs(sum);
     return open;
 }
 
-} // namespace obscura::content
+}  // namespace obscura::content

@@ -13,4 +13,4 @@ const kit::Scene& atrium();
 /// components may share an edge, so only the balance of directions is counted.
 int openEdges(const kit::Mesh& mesh, std::uint32_t ignoredMaterial);
 
-} // namespace obscura::content
+}  // namespace obscura::content

@@ -5,9 +5,9 @@
 #include "toasters/toaster_script.h"
 #include "toasters/tray.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 
 namespace obscura::content {
 
@@ -18,30 +18,22 @@ namespace {
 constexpr int kToys = 5;
 constexpr float kFrame = 1.0f / 30.0f;
 
-int toyNode(const std::string& part, int toy)
-{
-    return toasters().findNode(part + "_" + std::to_string(toy));
-}
+int toyNode(const std::string& part, int toy) { return toasters().findNode(part + "_" + std::to_string(toy)); }
 
-const Channel& channelOf(int node, Path path)
-{
+const Channel& channelOf(int node, Path path) {
     const auto& channels = toasters().channels;
-    return *std::find_if(
-        channels.begin(), channels.end(), [&](const Channel& c) { return c.node == node && c.path == path; });
+    return *std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.node == node && c.path == path; });
 }
 
-float lowest(const std::vector<glm::vec3>& points)
-{
+float lowest(const std::vector<glm::vec3>& points) {
     float y = points.front().y;
-    for (glm::vec3 p : points)
-        y = std::min(y, p.y);
+    for (glm::vec3 p : points) y = std::min(y, p.y);
     return y;
 }
 
-} // namespace
+}  // namespace
 
-TEST(Toasters, EachToyIsARootWithSkinMorphAndNodeAnimation)
-{
+TEST(Toasters, EachToyIsARootWithSkinMorphAndNodeAnimation) {
     for (int toy = 0; toy < kToys; ++toy) {
         const int root = toyNode("toaster", toy);
         ASSERT_NE(root, kNone);
@@ -50,8 +42,7 @@ TEST(Toasters, EachToyIsARootWithSkinMorphAndNodeAnimation)
         for (const char* part : {"walk", "body", "head", "key", "toast", "hip_left", "ankle_right"}) {
             int node = toyNode(part, toy);
             ASSERT_NE(node, kNone) << part;
-            while (toasters().nodes[node].parent != kNone)
-                node = toasters().nodes[node].parent;
+            while (toasters().nodes[node].parent != kNone) node = toasters().nodes[node].parent;
             EXPECT_EQ(node, root) << part;
         }
         EXPECT_EQ(toasters().channelWidth(channelOf(toyNode("toast", toy), Path::Weights)), 1u);
@@ -61,8 +52,7 @@ TEST(Toasters, EachToyIsARootWithSkinMorphAndNodeAnimation)
     EXPECT_NE(toasters().findNode("tray"), kNone);
 }
 
-TEST(Toasters, WeightsOfEachSkinVertexSumToOne)
-{
+TEST(Toasters, WeightsOfEachSkinVertexSumToOne) {
     for (const Geometry& geometry : toasters().geometries)
         for (const SkinInfluence& influence : geometry.skin) {
             const glm::vec4 w = influence.weights;
@@ -70,8 +60,7 @@ TEST(Toasters, WeightsOfEachSkinVertexSumToOne)
         }
 }
 
-TEST(Toasters, LoopIsContinuousInPositionAndSpeed)
-{
+TEST(Toasters, LoopIsContinuousInPositionAndSpeed) {
     for (int toy = 0; toy < kToys; ++toy) {
         const Channel& walk = channelOf(toyNode("walk", toy), Path::Translation);
         const auto at = [&](std::size_t key) {
@@ -87,8 +76,7 @@ TEST(Toasters, LoopIsContinuousInPositionAndSpeed)
     }
 }
 
-TEST(Toasters, FeetTouchTheGroundAndDoNotSink)
-{
+TEST(Toasters, FeetTouchTheGroundAndDoNotSink) {
     const auto scripts = obscura::toasters::makeScripts();
     for (float time = 0.0f; time < 10.0f; time += 0.5f * kFrame) {
         const Pose pose = poseAt(toasters(), time);
@@ -97,9 +85,8 @@ TEST(Toasters, FeetTouchTheGroundAndDoNotSink)
             const float gap = lowest(legs) - obscura::toasters::kTrayFloor;
             EXPECT_GT(gap, -0.005f) << "toy " << toy << " at " << time;
             const auto& hops = scripts[static_cast<std::size_t>(toy)].hops;
-            const bool isHopping = std::any_of(hops.begin(), hops.end(), [&](const auto& hop) {
-                return time > hop.start - 2.0f * kFrame && time < hop.start + hop.duration() + 2.0f * kFrame;
-            });
+            const bool isHopping = std::any_of(hops.begin(), hops.end(),
+                [&](const auto& hop) { return time > hop.start - 2.0f * kFrame && time < hop.start + hop.duration() + 2.0f * kFrame; });
             if (!isHopping) {
                 EXPECT_LT(gap, 0.006f) << "toy " << toy << " at " << time;
             }
@@ -107,8 +94,7 @@ TEST(Toasters, FeetTouchTheGroundAndDoNotSink)
     }
 }
 
-TEST(Toasters, KneesNeverOverstretch)
-{
+TEST(Toasters, KneesNeverOverstretch) {
     for (int toy = 0; toy < kToys; ++toy)
         for (const char* side : {"knee_left", "knee_right"}) {
             const Channel& knee = channelOf(toyNode(side, toy), Path::Rotation);
@@ -117,8 +103,7 @@ TEST(Toasters, KneesNeverOverstretch)
         }
 }
 
-TEST(Toasters, ToysDoNotIntersect)
-{
+TEST(Toasters, ToysDoNotIntersect) {
     // Upright capsules around the bodies; colliding rivals may overlap slightly.
     constexpr float kRadius = 0.16f;
     constexpr float kHeight = 0.46f;
@@ -134,8 +119,7 @@ TEST(Toasters, ToysDoNotIntersect)
     }
 }
 
-TEST(Toasters, ToysStayOnTheTray)
-{
+TEST(Toasters, ToysStayOnTheTray) {
     for (float time = 0.0f; time < 10.0f; time += 0.1f) {
         const Pose pose = poseAt(toasters(), time);
         for (int toy = 0; toy < kToys; ++toy) {
@@ -146,8 +130,7 @@ TEST(Toasters, ToysStayOnTheTray)
     }
 }
 
-TEST(Toasters, ToastFliesAndReturns)
-{
+TEST(Toasters, ToastFliesAndReturns) {
     for (int toy = 0; toy < kToys; ++toy) {
         float highest = 0.0f;
         float bend = 0.0f;
@@ -164,4 +147,4 @@ TEST(Toasters, ToastFliesAndReturns)
     }
 }
 
-} // namespace obscura::content
+}  // namespace obscura::content

@@ -4,20 +4,17 @@
 #include "meshkit/file_output.h"
 #include "meshkit/glb_writer.h"
 
-#include <filesystem>
 #include <gtest/gtest.h>
+#include <filesystem>
 #include <string>
 
 namespace obscura::content {
 
 namespace {
 
-void expectClean(const kit::Scene& scene)
-{
-    if (test::runShell("node --version").code != 0)
-        GTEST_SKIP() << "node is not installed";
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("obscura-validator-" + scene.name + ".glb");
+void expectClean(const kit::Scene& scene) {
+    if (test::runShell("node --version").code != 0) GTEST_SKIP() << "node is not installed";
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / ("obscura-validator-" + scene.name + ".glb");
     kit::writeFile(file, kit::writeGlb(scene));
     const test::Ended ended = test::runShell(test::shellCommand("node {} {}", OBSCURA_VALIDATOR_SCRIPT, file));
     std::filesystem::remove(file);
@@ -29,16 +26,10 @@ void expectClean(const kit::Scene& scene)
     EXPECT_EQ(ended.out, "0 0\n");
 }
 
-} // namespace
+}  // namespace
 
-TEST(Validator, AcceptsTheToasters)
-{
-    expectClean(toasters());
-}
+TEST(Validator, AcceptsTheToasters) { expectClean(toasters()); }
 
-TEST(Validator, AcceptsTheAtrium)
-{
-    expectClean(atrium());
-}
+TEST(Validator, AcceptsTheAtrium) { expectClean(atrium()); }
 
-} // namespace obscura::content
+}  // namespace obscura::content

@@ -70,7 +70,8 @@ std::unique_ptr<Browser> Browser::start(const fs::path& profile, std::string& re
     const pid_t process = ::fork();
     if (process == 0) {
         // Chromium reads commands from descriptor 3 and answers on 4. Duplicated to higher ones first, since the pipes may use 3 and 4.
-        const int in = ::fcntl(toBrowser[0], F_DUPFD, 10), out = ::fcntl(fromBrowser[1], F_DUPFD, 10), nothing = ::open("/dev/null", O_RDWR);
+        const int in = ::fcntl(toBrowser[0], F_DUPFD, 10), out = ::fcntl(fromBrowser[1], F_DUPFD, 10),
+                  nothing = ::open("/dev/null", O_RDWR);
         ::dup2(nothing, 0);
         ::dup2(nothing, 1);
         ::dup2(nothing, 2);
@@ -78,8 +79,8 @@ std::unique_ptr<Browser> Browser::start(const fs::path& profile, std::string& re
         ::dup2(out, 4);
         ::setpgid(0, 0);
         ::execl(program.c_str(), program.c_str(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--hide-scrollbars",
-                profileOption.c_str(), "--remote-debugging-pipe", "about:blank", nullptr);
+            "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--hide-scrollbars",
+            profileOption.c_str(), "--remote-debugging-pipe", "about:blank", nullptr);
         ::_exit(127);
     }
     ::close(toBrowser[0]);
@@ -141,7 +142,8 @@ void Browser::hear(const json& message) {
     const json& parameters = message.contains("params") ? message["params"] : json::object();
     if (method == "Page.loadEventFired") m_loaded = true;
     if (method == "Runtime.exceptionThrown") m_errors.push_back(parameters["exceptionDetails"].dump().substr(0, 400));
-    if (method == "Log.entryAdded" && parameters["entry"].value("level", "") == "error") m_errors.push_back(parameters["entry"].value("text", ""));
+    if (method == "Log.entryAdded" && parameters["entry"].value("level", "") == "error")
+        m_errors.push_back(parameters["entry"].value("text", ""));
     if (method == "Network.requestWillBeSent") {
         const std::string url = parameters["request"].value("url", "");
         if (!url.starts_with("data:") && parameters.value("type", "") != "Document") m_requests.push_back(url);
@@ -168,7 +170,8 @@ json Browser::call(const std::string& method, json parameters) {
 
 bool Browser::open(const std::string& url, int width, int height, bool dark) {
     call("Emulation.setDeviceMetricsOverride", {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
-    call("Emulation.setEmulatedMedia", {{"features", json::array({{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}})}});
+    call("Emulation.setEmulatedMedia",
+        {{"features", json::array({{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}})}});
     m_loaded = false;
     call("Page.navigate", {{"url", url}});
     json message;
@@ -183,12 +186,9 @@ json Browser::evaluate(const std::string& expression) {
 }
 
 void Browser::mouse(const char* type, double x, double y, int buttons) {
-    call("Input.dispatchMouseEvent", {{"type", type},
-                                      {"x", x},
-                                      {"y", y},
-                                      {"button", std::string_view(type) == "mouseMoved" && !buttons ? "none" : "left"},
-                                      {"buttons", buttons},
-                                      {"clickCount", 1}});
+    call("Input.dispatchMouseEvent",
+        {{"type", type}, {"x", x}, {"y", y}, {"button", std::string_view(type) == "mouseMoved" && !buttons ? "none" : "left"},
+            {"buttons", buttons}, {"clickCount", 1}});
 }
 void Browser::click(double x, double y) { drag(x, y, x, y); }
 void Browser::drag(double x0, double y0, double x1, double y1) {

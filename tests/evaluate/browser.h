@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
 #include <sys/types.h>
+#include <nlohmann/json.hpp>
 
 namespace obscura::evaluate {
 
@@ -23,8 +23,8 @@ public:
     nlohmann::json evaluate(const std::string& expression);  // value of a JavaScript expression, promises awaited; null if it throws
     void click(double x, double y);
     void drag(double x0, double y0, double x1, double y1);
-    void key(const std::string& name, int code);             // "ArrowRight", 39
-    std::vector<std::byte> screenshot();                     // PNG
+    void key(const std::string& name, int code);                             // "ArrowRight", 39
+    std::vector<std::byte> screenshot();                                     // PNG
     const std::vector<std::string>& requests() const { return m_requests; }  // URLs that the page requested, except itself and data:
     const std::vector<std::string>& errors() const { return m_errors; }      // exceptions and console errors
 

@@ -32,7 +32,9 @@ Scratch::~Scratch() {
     fs::remove_all(m_folder, ignored);
 }
 
-size_t Scratch::files() const { return size_t(std::distance(fs::recursive_directory_iterator(m_folder), fs::recursive_directory_iterator())); }
+size_t Scratch::files() const {
+    return size_t(std::distance(fs::recursive_directory_iterator(m_folder), fs::recursive_directory_iterator()));
+}
 
 truth::CapturedFrame cornerFrame() {
     truth::CapturedFrame frame = truth::emptyFrame({64, 36}, {6, 4}, 1.0471976f, 0.1f);

@@ -16,7 +16,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 std::vector<float>& valuesOf(truth::Picture& picture, std::string_view name) {
-    return std::find_if(picture.channels.begin(), picture.channels.end(), [&](const auto& channel) { return channel.name == name; })->values;
+    return std::find_if(picture.channels.begin(), picture.channels.end(), [&](const auto& channel) {
+        return channel.name == name;
+    })->values;
 }
 std::vector<float>& depthOf(truth::Picture& picture) { return valuesOf(picture, "Z"); }
 
@@ -29,8 +31,8 @@ protected:
     // An invalid frame is refused with one line that contains `expected`, and no file is written.
     void expectRefused(const std::string& expected, const std::string& more = "") {
         const size_t before = m_scratch.files();
-        const Ended ended = runTool(shellCommand("--capture {} --camera {} --json {} --out {} ", exr(), camera(), m_scratch / "e.json",
-                                                 m_scratch / "out") + more);
+        const Ended ended = runTool(
+            shellCommand("--capture {} --camera {} --json {} --out {} ", exr(), camera(), m_scratch / "e.json", m_scratch / "out") + more);
         EXPECT_EQ(ended.code, 2) << ended.error;
         EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
         EXPECT_NE(ended.error.find(expected), std::string::npos) << ended.error;
@@ -62,14 +64,13 @@ TEST_F(OnAFrame, writesErrorsImagesAndTables) {
         EXPECT_GE(row["milliseconds"]["all"], row["milliseconds"]["passes"]["hbao.horizons"]);
     }
     for (const char* name :
-         {"corner.capture.hbao.default.quadratic_2.visibility.exr", "corner.capture.hbao.default.quadratic_2.visibility.png",
-          "corner.capture.hbao.default.exponential_1.error.screen.png", "corner.capture.reference.exr", "metrics.json", "metrics.md"})
+        {"corner.capture.hbao.default.quadratic_2.visibility.exr", "corner.capture.hbao.default.quadratic_2.visibility.png",
+            "corner.capture.hbao.default.exponential_1.error.screen.png", "corner.capture.reference.exr", "metrics.json", "metrics.md"})
         EXPECT_TRUE(fs::exists(m_scratch / "out" / name)) << name;
 
     // The references it wrote can be read back and give the same errors.
     const Ended again = runTool(shellCommand("--capture {} --camera {} --frames 1 --reference {} --channel screen.quadratic_2 --json {}",
-                                            exr(), camera(), m_scratch / "out/corner.capture.reference.exr",
-                                            m_scratch / "again.json"));
+        exr(), camera(), m_scratch / "out/corner.capture.reference.exr", m_scratch / "again.json"));
     ASSERT_EQ(again.code, 0) << again.error;
     const json row = json::parse(textOf(m_scratch / "again.json"))[0];
     EXPECT_NEAR(row["eA"].get<double>(), rows[0]["eA"].get<double>(), 1e-4);
@@ -77,8 +78,9 @@ TEST_F(OnAFrame, writesErrorsImagesAndTables) {
 
 TEST_F(OnAFrame, everyThirdPixelMatchesTheFullReference) {
     const auto evaluate = [&](const std::string& more) {
-        const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --target-error 0 --frames 1 --json {} ", exr(), camera(),
-                                                 m_scratch / "e.json") + more);
+        const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --target-error 0 --frames 1 --json {} ", exr(),
+                                        camera(), m_scratch / "e.json") +
+                                    more);
         EXPECT_EQ(ended.code, 0) << ended.error;
         json row = json::parse(textOf(m_scratch / "e.json"))[0];
         for (const char* key : {"reference", "milliseconds", "referenceRays", "referenceError"}) row.erase(key);
@@ -88,7 +90,8 @@ TEST_F(OnAFrame, everyThirdPixelMatchesTheFullReference) {
     const json whole = evaluate(shellCommand("--out {}", m_scratch / "out"));
     const truth::Picture reference = truth::readExr(m_scratch / "out/corner.capture.reference.exr");
     json sparse = evaluate(shellCommand("--every 3 --out {}", m_scratch / "few"));
-    json same = evaluate(shellCommand("--every 3 --reference {} --channel screen.quadratic_2", m_scratch / "out/corner.capture.reference.exr"));
+    json same =
+        evaluate(shellCommand("--every 3 --reference {} --channel screen.quadratic_2", m_scratch / "out/corner.capture.reference.exr"));
 
     EXPECT_NE(sparse["printed"].get<std::string>().find("every 3 x 3 px"), std::string::npos) << sparse["printed"];
     EXPECT_NE(sparse["printed"].get<std::string>().find(" - "), std::string::npos) << sparse["printed"];
@@ -131,8 +134,8 @@ TEST_F(OnAFrame, deviceDepthAndWorldNormalsGiveTheSameError) {
     truth::writeExr(m_scratch / "dump.exr", picture);
     std::ofstream(m_scratch / "pose.json") << camera.dump();
     const auto errorOf = [&](const fs::path& image, const fs::path& pose) {
-        const Ended ended = runTool(shellCommand("--capture {} --camera {} --rays 64 --frames 1 --json {}", image, pose,
-                                                m_scratch / "e.json"));
+        const Ended ended =
+            runTool(shellCommand("--capture {} --camera {} --rays 64 --frames 1 --json {}", image, pose, m_scratch / "e.json"));
         EXPECT_EQ(ended.code, 0) << ended.error;
         return json::parse(textOf(m_scratch / "e.json"))[0]["eA"].get<double>();
     };
@@ -201,8 +204,7 @@ TEST_F(OnAFrame, missingReferenceChannelIsRefused) {
 }
 TEST_F(OnAFrame, unwritableFolderIsRefused) {
     std::ofstream(m_scratch / "file") << "x";
-    const Ended ended = runTool(
-        shellCommand("--capture {} --camera {} --json {}", exr(), camera(), m_scratch / "file" / "e.json"));
+    const Ended ended = runTool(shellCommand("--capture {} --camera {} --json {}", exr(), camera(), m_scratch / "file" / "e.json"));
     EXPECT_EQ(ended.code, 2);
     EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
 }
@@ -211,11 +213,10 @@ TEST(OnAScene, capturedFrameGivesTheSameErrors) {
     const Scratch scratch;
     const std::string reference = (scratch / "out/toasters.own.reference.exr").string();
     const Ended scene = runTool(shellCommand("--scene toasters --size 96x54 --rays 64 --frames 1 --json {} --out {} --capture-out {}",
-                                            scratch / "a.json", scratch / "out", scratch / "frame"));
+        scratch / "a.json", scratch / "out", scratch / "frame"));
     ASSERT_EQ(scene.code, 0) << scene.error;
     const Ended capture = runTool(shellCommand("--capture {} --camera {} --frames 1 --reference {} --json {}",
-                                              scratch / "frame.capture.exr", scratch / "frame.json", reference,
-                                              scratch / "b.json"));
+        scratch / "frame.capture.exr", scratch / "frame.json", reference, scratch / "b.json"));
     ASSERT_EQ(capture.code, 0) << capture.error;
     const json a = json::parse(textOf(scratch / "a.json"))[0], b = json::parse(textOf(scratch / "b.json"))[0];
     EXPECT_NEAR(a["eA"].get<double>(), b["eA"].get<double>(), 2e-4);
@@ -226,8 +227,10 @@ TEST(OnAScene, passesOfSomeFramesOnlyAreTimed) {
     // Depth layers are drawn by two techniques in turn until one is measured to be cheaper.
     const Scratch scratch;
     const std::string file = (scratch / "a.json").string();
-    const Ended ended = runTool(shellCommand("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality"
-                                             " --reference screen --json {}", file));
+    const Ended ended =
+        runTool(shellCommand("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality"
+                             " --reference screen --json {}",
+            file));
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json passes = json::parse(textOf(file))[0]["milliseconds"]["passes"];
     EXPECT_TRUE(passes.contains("layers.second hit")) << passes;
@@ -236,8 +239,8 @@ TEST(OnAScene, passesOfSomeFramesOnlyAreTimed) {
 
 TEST(OnAScene, unknownNamesPrintOneLine) {
     for (const char* arguments :
-         {"--scene toaster", "--scene no/such.glb", "--scene toasters --camera scene:99", "--scene toasters --camera path:no.json@1",
-          "--scene toasters --camera no.json", "--scene toasters --reference no.exr", "--check-baseline no.json"}) {
+        {"--scene toaster", "--scene no/such.glb", "--scene toasters --camera scene:99", "--scene toasters --camera path:no.json@1",
+            "--scene toasters --camera no.json", "--scene toasters --reference no.exr", "--check-baseline no.json"}) {
         const Ended ended = runTool(arguments);
         EXPECT_EQ(ended.code, 2) << arguments << ": " << ended.error;
         EXPECT_EQ(ended.errorLines(), 1u) << arguments << ": " << ended.error;

@@ -23,9 +23,10 @@ protected:
     // One small page for all tests: two frames, two presets, two falloffs, two references.
     static void SetUpTestSuite() {
         s_scratch = new Scratch();
-        s_made = new Ended(runTool(shellCommand(
-            "--gallery {} --scene toasters --camera own,path:@4 --method none,hbao --preset default,8x4 --size 160x90 --rays 32 --frames 2 --seed 3",
-            page())));
+        s_made =
+            new Ended(runTool(shellCommand("--gallery {} --scene toasters --camera own,path:@4 --method none,hbao --preset default,8x4 "
+                                           "--size 160x90 --rays 32 --frames 2 --seed 3",
+                page())));
     }
     static void TearDownTestSuite() {
         delete s_made;
@@ -75,7 +76,8 @@ protected:
         const std::vector<std::byte> png = m_browser->screenshot();
         EXPECT_GT(png.size(), 10000u);
         if (const char* folder = std::getenv("OBSCURA_SCREENSHOTS"))
-            std::ofstream(fs::path(folder) / name, std::ios::binary).write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
+            std::ofstream(fs::path(folder) / name, std::ios::binary)
+                .write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
     }
 
     static inline Scratch* s_scratch = nullptr;
@@ -109,7 +111,8 @@ TEST_F(Gallery, sortsByAnyColumnBothWays) {
 
 TEST_F(Gallery, sliderFollowsPointerAndKeys) {
     open(1400, 1000);
-    const std::string split = "+document.getElementById('split').value", clip = "getComputedStyle(document.getElementById('picture-left')).clipPath";
+    const std::string split = "+document.getElementById('split').value",
+                      clip = "getComputedStyle(document.getElementById('picture-left')).clipPath";
     EXPECT_EQ(ask(split), 50);
     const auto [x, y] = centre("#slider");
     const double width = ask("document.getElementById('slider').getBoundingClientRect().width");

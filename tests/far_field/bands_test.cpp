@@ -11,7 +11,9 @@ constexpr double kTurn = 6.283185307179586, kPlane = 6.0, kTop = 2.0;
 
 // A plane 6 m away with a box 4 m high, rotated and off the middle of the image, so that it has no symmetry with the directions. Around a
 // symmetric occluder the error would repeat after half a turn and every second frequency would be 0.
-struct Box { double u, v, turn, halfLength, halfWidth; };  // px from the middle of the image; radians
+struct Box {
+    double u, v, turn, halfLength, halfWidth;
+};  // px from the middle of the image; radians
 Room tallBox(const Box& box) {
     Room room;
     room.width = room.height = kSize;
@@ -34,22 +36,27 @@ Room tallBox(const Box& box) {
 // for the method, and infinite thickness. A ray projects to a line, so it suffices to know where lines of each angle enter the box.
 double obscuranceOfRays(const Room& room, const Box& box, int x, int y, double length) {
     constexpr int kAngles = 1440, kAround = 720, kUp = 32;
-    const double focal = 0.5 * kSize * double(room.projection[0]), depth = kPlane - kPlane / focal;  // one pixel footprint above the plane, like the methods
+    const double focal = 0.5 * kSize * double(room.projection[0]),
+                 depth = kPlane - kPlane / focal;  // one pixel footprint above the plane, like the methods
     const double p[2] = {(x + 0.5 - 128.0) / focal * kPlane, (y + 0.5 - 128.0) / focal * kPlane};
     const double seen[2] = {p[0] / depth * focal + 128.0, p[1] / depth * focal + 128.0};
     const double aside[2] = {128.0 + box.u - seen[0], 128.0 + box.v - seen[1]}, distance = std::hypot(aside[0], aside[1]);
     std::vector<double> enters(kAngles, -1.0);
     for (int i = 0; i < kAngles; ++i) {
-        const double d[2] = {std::cos(kTurn * (i + 0.5) / kAngles), std::sin(kTurn * (i + 0.5) / kAngles)}, reach = box.halfLength + box.halfWidth;
+        const double d[2] = {std::cos(kTurn * (i + 0.5) / kAngles), std::sin(kTurn * (i + 0.5) / kAngles)},
+                     reach = box.halfLength + box.halfWidth;
         if (d[0] * aside[0] + d[1] * aside[1] < 0.0 || std::abs(d[1] * aside[0] - d[0] * aside[1]) > reach) continue;
-        const auto inside = [&](double t) { return room.depth[size_t(seen[1] + t * d[1]) * kSize + size_t(seen[0] + t * d[0])] < float(kPlane); };
+        const auto inside = [&](double t) {
+            return room.depth[size_t(seen[1] + t * d[1]) * kSize + size_t(seen[0] + t * d[0])] < float(kPlane);
+        };
         double t = std::max(distance - reach, 0.0);
         while (t < distance + reach && !inside(t)) t += 0.4;
         if (t < distance + reach) enters[i] = t;
         for (int back = 0; back < 8 && enters[i] >= 0.0 && inside(t -= 0.05); ++back) enters[i] = t;
     }
     double blocked = 0.0;
-    const double passing = box.halfLength + box.halfWidth + distance * kTurn / kAngles;  // px from the middle of the box: lines farther away miss it
+    const double passing =
+        box.halfLength + box.halfWidth + distance * kTurn / kAngles;  // px from the middle of the box: lines farther away miss it
     for (int i = 0; i < kAround; ++i) {
         const double azimuth = kTurn * (i + 0.5) / kAround, c = std::cos(azimuth), s = std::sin(azimuth);
         if (c * aside[0] + s * aside[1] < 0.0) continue;
@@ -69,7 +76,7 @@ double obscuranceOfRays(const Room& room, const Box& box, int x, int y, double l
 // The error is sampled on circles around the box.
 constexpr int kAzimuths = 256, kRings = 13, kMaxFrequency = 40;
 struct RingPoint {
-    int x, y;      // of the visible part; the error is interpolated between this pixel and the three after it
+    int x, y;  // of the visible part; the error is interpolated between this pixel and the three after it
     double fx, fy;
 };
 RingPoint onRing(const Box& box, int ring, int i) {
@@ -107,7 +114,8 @@ Spectrum spectrumOf(const Picture& picture, const Picture& reference, const Box&
             error[i] = (at(0, 0) * (1 - s.fx) + at(1, 0) * s.fx) * (1 - s.fy) + (at(0, 1) * (1 - s.fx) + at(1, 1) * s.fx) * s.fy;
         }
         for (int f = 0; f <= kMaxFrequency; ++f)
-            for (int i = 0; i < kAzimuths; ++i) spectrum[ring * (kMaxFrequency + 1) + f] += error[i] * std::polar(1.0 / kAzimuths, -kTurn * double(f) * i / kAzimuths);
+            for (int i = 0; i < kAzimuths; ++i)
+                spectrum[ring * (kMaxFrequency + 1) + f] += error[i] * std::polar(1.0 / kAzimuths, -kTurn * double(f) * i / kAzimuths);
     }
     return spectrum;
 }
@@ -120,7 +128,11 @@ std::vector<double> powerOf(const Spectrum& spectrum) {
 }
 
 // The strongest frequency in 1 ... kMaxFrequency: its amplitude, and its power as a multiple of the median power.
-struct Peak { double amplitude; int frequency; double medians; };
+struct Peak {
+    double amplitude;
+    int frequency;
+    double medians;
+};
 Peak peakOf(const std::vector<double>& power) {
     const auto highest = std::max_element(power.begin() + 1, power.end());
     std::vector<double> sorted(power.begin() + 1, power.end());
@@ -142,7 +154,9 @@ TEST_F(FarFieldBands, noFrequencyExceedsThreeTimesTheMedian) {
         rooms.push_back(tallBox(boxes[i]));
         references.push_back(referenceOf(rooms[i], boxes[i], 3.0));
     }
-    struct Bands { Peak each, together; };
+    struct Bands {
+        Peak each, together;
+    };
     const auto bands = [&](const char* name, const char* preset, const Changes& changes) {
         std::vector<double> power(kMaxFrequency + 1, 0.0);
         Spectrum mean(kRings * (kMaxFrequency + 1));
@@ -153,8 +167,8 @@ TEST_F(FarFieldBands, noFrequencyExceedsThreeTimesTheMedian) {
             for (size_t w = 0; w < spectrum.size(); ++w) mean[w] += spectrum[w] / double(kBoxes);
         }
         const Bands result{peakOf(power), peakOf(powerOf(mean))};
-        printf("%-16s highest peak at %2d per turn, %.4f, %5.1f medians; in the mean error at %2d per turn, %.4f\n", name, result.each.frequency,
-               result.each.amplitude, result.each.medians, result.together.frequency, result.together.amplitude);
+        printf("%-16s highest peak at %2d per turn, %.4f, %5.1f medians; in the mean error at %2d per turn, %.4f\n", name,
+            result.each.frequency, result.each.amplitude, result.each.medians, result.together.frequency, result.together.amplitude);
         return result;
     };
     const Bands improved = bands("default", "default", {});

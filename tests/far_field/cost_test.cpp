@@ -18,8 +18,8 @@ protected:
 // except `unit`, which scales depths. The falloff is in a table of fixed size, filled when the falloff changes.
 TEST_F(FarFieldCost, isTheSameForEveryFalloff) {
     const Room room = crease(200, 150, 20);
-    const char* const falloffs[] = {"exponential:1", "exponential:0.25", "exponential:100", "wendland:2", "constant:1", "ramp:0.385:1",
-                                    "quadratic:2"};
+    const char* const falloffs[] = {
+        "exponential:1", "exponential:0.25", "exponential:100", "wendland:2", "constant:1", "ramp:0.385:1", "quadratic:2"};
     constexpr size_t kUnit = offsetof(shared::FarFieldConstants, unit);
     for (const char* preset : {"default", "paper_8x2"}) {
         SCOPED_TRACE(preset);

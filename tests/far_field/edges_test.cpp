@@ -27,7 +27,8 @@ TEST_F(FarFieldEdges, skyIsOpen) {
 }
 
 TEST_F(FarFieldEdges, anySizeGivesValidObscurance) {
-    for (const auto& [width, height, guard] : {std::tuple{8u, 8u, 0u}, {1u, 1u, 0u}, {9u, 33u, 1u}, {97u, 61u, 7u}, {161u, 3u, 0u}, {160u, 120u, 0u}}) {
+    for (const auto& [width, height, guard] :
+        {std::tuple{8u, 8u, 0u}, {1u, 1u, 0u}, {9u, 33u, 1u}, {97u, 61u, 7u}, {161u, 3u, 0u}, {160u, 120u, 0u}}) {
         const Room room = crease(width, height, guard);
         everyPreset(room, "exponential:1", (std::to_string(width) + "x" + std::to_string(height)).c_str());
     }
@@ -38,7 +39,8 @@ TEST_F(FarFieldEdges, scaledWorldGivesTheSameResult) {
         Room room = crease(160, 120, 16);
         for (float& z : room.depth) z *= z < 5e3f ? scale : 1.0f;
         everyPreset(room, "exponential:1", std::to_string(scale).c_str());
-        for (const char* falloff : {"constant:0.01", "constant:100000", "linear:0.25", "exponential:100", "ramp:0.1:0.2"}) everyPreset(room, falloff, falloff);
+        for (const char* falloff : {"constant:0.01", "constant:100000", "linear:0.25", "exponential:100", "ramp:0.1:0.2"})
+            everyPreset(room, falloff, falloff);
         // The result is the same if all lengths are scaled, falloff included.
         const std::string falloff = "exponential:" + std::to_string(scale);
         const Picture scaled = run(room, values({}), falloff.c_str()), one = run(crease(160, 120, 16), values({}), "exponential:1");
@@ -68,7 +70,8 @@ TEST_F(FarFieldEdges, orthographicStepMatchesTheClosedForm) {
         // A wall 1 m high at distance a on an infinite floor blocks (1 - a / sqrt(1 + a^2)) / 2; the paper's slabs miss some of it.
         for (const uint32_t x : {10u, 30u, 40u}) {
             const double a = 0.02 * (48.0 - x - 0.5);
-            EXPECT_NEAR(picture[48 * 96 + x], 0.5 * (1.0 - a / std::sqrt(1.0 + a * a)), preset[0] == 'p' ? 0.09 : 0.05) << preset << " " << a;
+            EXPECT_NEAR(picture[48 * 96 + x], 0.5 * (1.0 - a / std::sqrt(1.0 + a * a)), preset[0] == 'p' ? 0.09 : 0.05)
+                << preset << " " << a;
         }
         EXPECT_LT(picture[48 * 96 + 70], 0.01f) << preset;
     }
@@ -79,7 +82,8 @@ TEST_F(FarFieldEdges, largeImagesWidenTheirIntervals) {
     EXPECT_GT(grid.interval, 3u);
     EXPECT_LE(grid.bytes, ao::kMostBytes);
     EXPECT_EQ(ao::farFieldGrid({1536, 864}, 8, 5, 1, ao::Averaging::pyramid, 16384).interval, 5u);
-    EXPECT_LE(ao::farFieldGrid({4916, 2766}, 16, 3, 1, ao::Averaging::pyramid, 4096).rows, 4096u);  // the maximum size that every device supports
+    EXPECT_LE(
+        ao::farFieldGrid({4916, 2766}, 16, 3, 1, ao::Averaging::pyramid, 4096).rows, 4096u);  // the maximum size that every device supports
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ protected:
         for (uint32_t y = 0; y < room.visibleHeight(); y += 3)
             for (uint32_t x = 0; x < room.visibleWidth(); x += 3) {
                 const size_t i = size_t(y + room.guard) * room.width + x + room.guard;
-                const glm::vec3 p = pointAt(room, x + room.guard, y + room.guard), n(room.normals[4 * i], room.normals[4 * i + 1], room.normals[4 * i + 2]);
+                const glm::vec3 p = pointAt(room, x + room.guard, y + room.guard),
+                                n(room.normals[4 * i], room.normals[4 * i + 1], room.normals[4 * i + 2]);
                 if (room.depth[i] > 100.0f || !counts(p, n)) continue;
                 sum += std::abs(double(picture[size_t(y) * room.visibleWidth() + x]) - worldObscurance(world, p, n, rho, 512));
                 ++pixels;
@@ -34,7 +35,9 @@ protected:
 };
 
 constexpr auto kAll = [](const glm::vec3&, const glm::vec3&) { return true; };
-constexpr auto kNearPillar = [](const glm::vec3& p, const glm::vec3& n) { return n.z > 0.9f && std::abs(p.x) < 0.8f && std::abs(p.y) < 1.5f; };
+constexpr auto kNearPillar = [](const glm::vec3& p, const glm::vec3& n) {
+    return n.z > 0.9f && std::abs(p.x) < 0.8f && std::abs(p.y) < 1.5f;
+};
 
 // The obscurance is 0.044; the tolerance is a quarter of it. Round solids obscure too much, since the corners of segments lie outside them.
 TEST_F(FarFieldLayers, pillarDoesNotHideTheWallBeside) {
@@ -53,7 +56,8 @@ TEST_F(FarFieldLayers, floatingBoxMatchesTheReference) {
 
 // Floor and wall are boxes as well: the scene consists of finite solids that touch each other.
 TEST_F(FarFieldLayers, touchingSlabsMatchTheReference) {
-    const std::vector<Solid> world{{Kind::box, {0, -1.7f, -5}, {20, 0.2f, 20}}, {Kind::box, {0, 0, -8.2f}, {20, 20, 0.2f}}, {Kind::box, {0, -1.0f, -6}, {0.5f, 0.5f, 0.4f}}};
+    const std::vector<Solid> world{{Kind::box, {0, -1.7f, -5}, {20, 0.2f, 20}}, {Kind::box, {0, 0, -8.2f}, {20, 20, 0.2f}},
+        {Kind::box, {0, -1.0f, -6}, {0.5f, 0.5f, 0.4f}}};
     EXPECT_LE(error(world, layers(ao::LayerMode::second), kAll), 0.004);
 }
 
@@ -94,10 +98,12 @@ TEST_F(FarFieldLayers, withoutRequestNothingChanges) {
     Room room = frameOf({kFloor, kWall, {Kind::box, {0, -1.0f, -6}, {0.5f, 0.5f, 0.4f}}}, 192, 108, 16), bare = room;
     bare.thickness.clear();
     bare.second.clear();
-    for (const char* preset : {"default", "paper_16x2", "fast", "thin"}) EXPECT_EQ(run(room, values({}, preset), kFalloff), run(bare, values({}, preset), kFalloff)) << preset;
+    for (const char* preset : {"default", "paper_16x2", "fast", "thin"})
+        EXPECT_EQ(run(room, values({}, preset), kFalloff), run(bare, values({}, preset), kFalloff)) << preset;
     EXPECT_EQ(run(bare, layers(ao::LayerMode::second), kFalloff), run(bare, layers(ao::LayerMode::none), kFalloff));
     // Settings that do not read depth layers ignore the parameter.
-    for (const Changes& other : {Changes{{"averaging", 1}}, Changes{{"averaging", 3}}, Changes{{"thickness", 0.5f}}, Changes{{"interleave", 2}}}) {
+    for (const Changes& other :
+        {Changes{{"averaging", 1}}, Changes{{"averaging", 3}}, Changes{{"thickness", 0.5f}}, Changes{{"interleave", 2}}}) {
         Changes asked = other;
         asked.push_back({"depth_layers", float(ao::LayerMode::second)});
         EXPECT_EQ(run(room, values(asked), kFalloff), run(room, values(other), kFalloff)) << other[0].id;
@@ -114,7 +120,8 @@ TEST_F(FarFieldLayers, withoutFiniteSolidsLayersChangeNothing) {
 
 TEST_F(FarFieldLayers, sameFrameTwiceIsBitIdenticalAndFinite) {
     const std::vector<Solid> world{kFloor, {Kind::sphere, {0, -0.5f, -6}, {0.5f, 0, 0}}, {Kind::cylinder, {1, 0, -7}, {0.1f, 0, 0}}};
-    for (const auto& [width, height, guard, half] : {std::tuple{192u, 108u, 16u, false}, {191u, 107u, 16u, true}, {8u, 8u, 0u, false}, {9u, 40u, 0u, true}}) {
+    for (const auto& [width, height, guard, half] :
+        {std::tuple{192u, 108u, 16u, false}, {191u, 107u, 16u, true}, {8u, 8u, 0u, false}, {9u, 40u, 0u, true}}) {
         const Room room = frameOf(world, width, height, guard, half);
         const Picture picture = run(room, layers(ao::LayerMode::second), kFalloff);
         EXPECT_TRUE(finite(picture)) << width;

@@ -51,7 +51,9 @@ TEST_F(FarFieldOracle, sparseLinesAddLittleError) {
     EXPECT_LE(mean(values({{"lines", 2}})).eA, 0.014);
 }
 
-TEST_F(FarFieldOracle, sphereBeforeSkyIsBelowTheLimit) { EXPECT_LE(measure("sphere", values({}), "exponential:1", "screen.exponential_1").raw.eA, 0.008f); }
+TEST_F(FarFieldOracle, sphereBeforeSkyIsBelowTheLimit) {
+    EXPECT_LE(measure("sphere", values({}), "exponential:1", "screen.exponential_1").raw.eA, 0.008f);
+}
 
 // With a single layer, free-standing pillars hide half of the atrium: the error is 0.12. With layers, prototypes reached 0.0123 to 0.0153.
 class FarFieldDrawn : public DrawnOracleTest {
@@ -74,7 +76,9 @@ TEST_F(FarFieldDrawn, depthLayersReduceTheError) {
 TEST_F(FarFieldDrawn, depthLayersHelpAtEveryFalloff) {
     EXPECT_LE(drawn("atrium", 3, "quadratic:2", "world.quadratic_2"), 0.0225f);
     for (const char* scene : {"atrium", "corner"})  // most of the remaining error is due to occluders outside the image
-        EXPECT_LE(drawn(scene, 3, "exponential:3", "world.exponential_3"), 0.003f + std::min(0.045f, drawn(scene, 0, "exponential:3", "world.exponential_3"))) << scene;
+        EXPECT_LE(drawn(scene, 3, "exponential:3", "world.exponential_3"),
+            0.003f + std::min(0.045f, drawn(scene, 0, "exponential:3", "world.exponential_3")))
+            << scene;
 }
 
 class MipmapOracle : public FarFieldOracle {

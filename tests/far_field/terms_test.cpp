@@ -28,17 +28,22 @@ protected:
         Table result;
         result.halves.resize(size_t(kColumns) * kRows * 8);
         gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(m_device, result.halves.size() * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::Buffer::create(m_device, result.halves.size() * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
+            gpu::Status::ok);
         m_device.nextFrame();
         m_graph->begin();
         const graph::ImageId image = table.add(*m_graph, inputs, "table");
         const graph::BufferId target = m_graph->import("back", back, graph::Graph::Shared::written);
-        m_graph->pass("read back").use(image, graph::Access::transferRead).use(target, graph::Access::transferWrite)
+        m_graph->pass("read back")
+            .use(image, graph::Access::transferRead)
+            .use(target, graph::Access::transferWrite)
             .record([&](const graph::PassContext& c) {
                 const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kColumns, kRows, 1}};
                 c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
             });
-        EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor->execute(*m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
+        EXPECT_EQ(
+            m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor->execute(*m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
         std::memcpy(result.halves.data(), back.mapped(), result.halves.size() * 2);
         return result;
     }
@@ -55,18 +60,23 @@ TEST_F(FalloffTableTest, holdsTheIntegralsOfEveryFalloff) {
             const int steps = 2000;
             for (uint32_t column = 0; column < kColumns; ++column) {
                 for (int which = 0; which < 3; ++which) {
-                    ASSERT_NEAR(table.at(column, row, which), a[which], 0.004) << text << " column " << column << " row " << row << " A" << which;
-                    if (column) { ASSERT_EQ(table.at(column, row, which), table.at(column - 1, row, which, true)); }
+                    ASSERT_NEAR(table.at(column, row, which), a[which], 0.004)
+                        << text << " column " << column << " row " << row << " A" << which;
+                    if (column) {
+                        ASSERT_EQ(table.at(column, row, which), table.at(column - 1, row, which, true));
+                    }
                 }
                 for (int i = 0; i < steps; ++i) {
-                    const double t = (column + (i + 0.5) / steps) * kPi / (kColumns - 1), weight = double(ao::evaluate(rho, float(b / std::sin(t)))) * kPi / (kColumns - 1) / steps;
+                    const double t = (column + (i + 0.5) / steps) * kPi / (kColumns - 1),
+                                 weight = double(ao::evaluate(rho, float(b / std::sin(t)))) * kPi / (kColumns - 1) / steps;
                     a[0] += weight;
                     a[1] += weight * std::cos(2 * t);
                     a[2] += weight * std::sin(2 * t);
                 }
             }
         }
-        for (int which = 0; which < 3; ++which) EXPECT_EQ(table.at(kColumns - 1, kRows - 1, which), 0.0) << "nothing is blocked at infinity";
+        for (int which = 0; which < 3; ++which)
+            EXPECT_EQ(table.at(kColumns - 1, kRows - 1, which), 0.0) << "nothing is blocked at infinity";
     }
 }
 
@@ -104,17 +114,21 @@ TEST_F(FarFieldTest, tableIsFilledOnlyWhenTheFalloffChanges) {
 // At the bottom of a hole 1 px wide the whole hemisphere is blocked, for any normal. The deviation from 1 comes from K planes standing for
 // the hemisphere, and from sector widths that do not add up to a full turn.
 TEST_F(FarFieldTest, blockedHemisphereIsOne) {
-    struct Case { float directions, most; };
+    struct Case {
+        float directions, most;
+    };
     for (const auto& [directions, most] : {Case{8, 0.072f}, Case{16, 0.020f}, Case{32, 0.009f}}) {
         double sum = 0.0;
         int count = 0;
-        for (const std::array<float, 3> n : {std::array{0.0f, 0.0f, 1.0f}, {0.5f, 0.0f, 0.9f}, {-0.3f, 0.6f, 0.7f}, {0.2f, -0.9f, 0.3f}, {0.7f, 0.7f, 0.2f}}) {
+        for (const std::array<float, 3> n :
+            {std::array{0.0f, 0.0f, 1.0f}, {0.5f, 0.0f, 0.9f}, {-0.3f, 0.6f, 0.7f}, {0.2f, -0.9f, 0.3f}, {0.7f, 0.7f, 0.2f}}) {
             Room room = plane({0.0f, 0.0f, 1.0f});
             const size_t middle = size_t(room.height / 2) * room.width + room.width / 2;
             room.depth[middle] = 40.0f;
             const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
             for (int c = 0; c < 3; ++c) room.normals[4 * middle + c] = n[c] / length;
-            const Picture picture = run(room, values({{"directions", directions}, {"segments", 1}, {"estimator", 0}, {"averaging", 0}}), "constant:1000");
+            const Picture picture =
+                run(room, values({{"directions", directions}, {"segments", 1}, {"estimator", 0}, {"averaging", 0}}), "constant:1000");
             const float blocked = picture[size_t(room.height / 2 - room.guard) * room.visibleWidth() + room.width / 2 - room.guard];
             EXPECT_GT(blocked, 1.0f - most) << directions << " directions";
             sum += double(blocked);
@@ -125,8 +139,10 @@ TEST_F(FarFieldTest, blockedHemisphereIsOne) {
 }
 
 TEST_F(FarFieldTest, planesAreOpen) {
-    for (const char* preset : {"default", "fast", "paper_16x2"}) EXPECT_LT(highest(run(plane({0, 0, 1}), values({}, preset), "exponential:1")), 1e-5f) << preset;
-    const Picture improved = run(plane({0.5f, 0.3f, 1}), values({}), "exponential:1"), paper = run(plane({0.5f, 0.3f, 1}), values({}, "paper_16x2"), "exponential:1");
+    for (const char* preset : {"default", "fast", "paper_16x2"})
+        EXPECT_LT(highest(run(plane({0, 0, 1}), values({}, preset), "exponential:1")), 1e-5f) << preset;
+    const Picture improved = run(plane({0.5f, 0.3f, 1}), values({}), "exponential:1"),
+                  paper = run(plane({0.5f, 0.3f, 1}), values({}, "paper_16x2"), "exponential:1");
     EXPECT_LT(mean(improved), 0.0006);
     EXPECT_LT(highest(paper), 0.0045f);
     EXPECT_LT(highest(run(plane({0, 1, 0}), values({}), "exponential:1")), 0.02f);  // a floor up to the horizon
@@ -147,7 +163,8 @@ TEST(FarFieldGrid, levelsDoNotOverlapAndOppositeDirectionsMirror) {
                     for (uint32_t n = 0; n < grid.levels; ++n) {  // as levelBase() counts
                         EXPECT_EQ(d.lines % (1u << n), 0u);
                         EXPECT_EQ(d.intervals % (1u << n), 0u);
-                        const uint32_t from = d.total - (d.total >> (shift * n)), to = n + 1 < grid.levels ? d.total - (d.total >> (shift * (n + 1))) : d.total;
+                        const uint32_t from = d.total - (d.total >> (shift * n)),
+                                       to = n + 1 < grid.levels ? d.total - (d.total >> (shift * (n + 1))) : d.total;
                         const uint64_t cells = uint64_t(averaging == ao::Averaging::pyramid ? d.lines >> n : d.lines) * (d.intervals >> n);
                         EXPECT_LE(from + cells, to) << "level " << n;
                     }
@@ -164,8 +181,9 @@ TEST(FarFieldGrid, levelsDoNotOverlapAndOppositeDirectionsMirror) {
 TEST(FarFieldGrid, memoryMatchesTheGrid) {
     printf("memory of far_field's grids, MB (without the table, 128 KB, and images of the visible size)\n");
     for (const shared::uvec2 size : {shared::uvec2{768, 432}, {1536, 864}, {2304, 1296}, {4916, 2766}}) {
-        for (const auto& [directions, interval, averaging, name] : {std::tuple{12u, 5u, ao::Averaging::pyramid, "default"}, {8u, 5u, ao::Averaging::pyramid, "8x4"}, {18u, 5u, ao::Averaging::pyramid, "fast"},
-                                                                    {8u, 10u, ao::Averaging::prefixSums, "paper_8x2"}, {16u, 10u, ao::Averaging::prefixSums, "paper_16x2"}}) {
+        for (const auto& [directions, interval, averaging, name] : {std::tuple{12u, 5u, ao::Averaging::pyramid, "default"},
+                 {8u, 5u, ao::Averaging::pyramid, "8x4"}, {18u, 5u, ao::Averaging::pyramid, "fast"},
+                 {8u, 10u, ao::Averaging::prefixSums, "paper_8x2"}, {16u, 10u, ao::Averaging::prefixSums, "paper_16x2"}}) {
             const ao::FarFieldGrid grid = ao::farFieldGrid(size, directions, interval, 1, averaging, 16384);
             printf("%4ux%-4u %-10s K=%-2u B0=%-2u %6.1f\n", size.x, size.y, name, directions, grid.interval, double(grid.bytes) * 1e-6);
         }

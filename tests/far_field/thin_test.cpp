@@ -22,7 +22,9 @@ double difference(const Picture& a, const Picture& b) {
 class FarFieldThin : public FarFieldTest {
 protected:
     const char* falloff = "exponential:2";
-    Picture thin(const Room& room, float thickness, float jitter = 0.0f) { return run(room, values({{"thickness", thickness}, {"jitter", jitter}, {"interval", 3}}, "thin"), falloff); }
+    Picture thin(const Room& room, float thickness, float jitter = 0.0f) {
+        return run(room, values({{"thickness", thickness}, {"jitter", jitter}, {"interval", 3}}, "thin"), falloff);
+    }
 };
 
 // A thickness of 100 m gives the result of infinite thickness, a single horizon with the paper's slabs, within the width of a bin.
@@ -45,7 +47,8 @@ TEST_F(FarFieldThin, smallerThicknessBlocksLess) {
     // A board 2 cm thick blocks only the solid angle that it covers, much less than one 10 m thick.
     EXPECT_LT(mean(thin(room, 0.02f)), 0.35 * mean(thin(room, 10.0f)));
     m_method = "mipmap";
-    EXPECT_LT(mean(run(room, values({{"thickness", 0.05f}, {"jitter", 0}}, "thin"), falloff)), 0.7 * mean(run(room, values({{"thickness", 10}, {"jitter", 0}}, "thin"), falloff)));
+    EXPECT_LT(mean(run(room, values({{"thickness", 0.05f}, {"jitter", 0}}, "thin"), falloff)),
+        0.7 * mean(run(room, values({{"thickness", 10}, {"jitter", 0}}, "thin"), falloff)));
 }
 
 TEST_F(FarFieldThin, jitterAddsNoiseAndKeepsTheMean) {

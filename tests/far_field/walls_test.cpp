@@ -26,7 +26,10 @@ double row(const Room& room, const Picture& picture, uint32_t y) {
 TEST_F(FarFieldTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
     for (const auto& [a, exact] : {std::pair{0.1, 0.34128}, {0.5, 0.13836}, {1.0, 0.05758}}) EXPECT_NEAR(exactAtWall(a), exact, 1e-4);
     const Room room = crease();  // the image cuts off the ends of the wall, 0.01; interleaving is less accurate at the crease
-    struct Case { const char* preset; double tolerance; };
+    struct Case {
+        const char* preset;
+        double tolerance;
+    };
     for (const auto& [preset, tolerance] : {Case{"default", 0.018}, Case{"fast", 0.07}, Case{"paper_16x2", 0.04}}) {
         const Picture picture = run(room, values({}, preset), "exponential:1");
         int rows = 0;
@@ -62,7 +65,8 @@ TEST_F(FarFieldTest, rotationByHalfATurnChangesNothing) {
 
 TEST_F(FarFieldTest, oddNumberOfDirectionsMatchesEven) {
     const Room room = crease();
-    const double even = mean(run(room, values({{"directions", 8}}), "exponential:1")), odd = mean(run(room, values({{"directions", 9}}), "exponential:1"));
+    const double even = mean(run(room, values({{"directions", 8}}), "exponential:1")),
+                 odd = mean(run(room, values({{"directions", 9}}), "exponential:1"));
     EXPECT_NEAR(odd, even, 0.03 * even);
 }
 
@@ -71,7 +75,8 @@ TEST_F(FarFieldTest, parametersDoNotChangeTheLimit) {
     const double limit = mean(run(room, values({{"directions", 32}, {"segments", 4}, {"near", 16}}), "exponential:1"));
     EXPECT_GT(limit, 0.05);
     const auto check = [&](const Changes& changes, const char* preset, double tolerance) {
-        EXPECT_NEAR(mean(run(room, values(changes, preset), "exponential:1")), limit, tolerance * limit) << preset << " " << changes[0].id << " " << changes[0].value;
+        EXPECT_NEAR(mean(run(room, values(changes, preset), "exponential:1")), limit, tolerance * limit)
+            << preset << " " << changes[0].id << " " << changes[0].value;
     };
     for (const float k : {4.0f, 7.0f, 16.0f, 32.0f}) check({{"directions", k}}, "default", k < 8.0f ? 0.1 : 0.05);
     for (const float s : {1.0f, 3.0f, 8.0f}) check({{"segments", s}}, "default", 0.06);
@@ -85,11 +90,13 @@ TEST_F(FarFieldTest, parametersDoNotChangeTheLimit) {
 
 TEST_F(FarFieldTest, nearAndFarFieldAddUp) {
     const Room room = crease();
-    const Picture both = run(room, values({}), "exponential:1"), near = run(room, values({{"parts", 1}}), "exponential:1"), far = run(room, values({{"parts", 2}}), "exponential:1");
+    const Picture both = run(room, values({}), "exponential:1"), near = run(room, values({{"parts", 1}}), "exponential:1"),
+                  far = run(room, values({{"parts", 2}}), "exponential:1");
     for (size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(near[i] + far[i], both[i], 0.002) << i;
     EXPECT_GT(mean(near), 0.002);
     EXPECT_GT(mean(far), 0.03);
-    EXPECT_GT(mean(run(room, values({{"near", 0}}), "exponential:1")), mean(far));  // without the near field, nothing hides distant occluders
+    EXPECT_GT(
+        mean(run(room, values({{"near", 0}}), "exponential:1")), mean(far));  // without the near field, nothing hides distant occluders
 }
 
 TEST_F(FarFieldTest, presetsRunTheirPasses) {

@@ -20,7 +20,9 @@ Part part(uint32_t first, uint32_t end) {
     p.falloff = "quadratic:2";
     p.width = 32, p.height = 18, p.rays = 64;
     p.first = first, p.end = end;
-    for (uint32_t i = first; i < end; ++i) p.frames.push_back({i, float(i) / 30.0f, 0.1f * float(i), 0.01f, 0.2f, i ? 0.9f : 0.0f, i ? 0.04f : 0.0f, i ? 0.01f : 0.0f, i ? 0.02f : 0.0f, i ? 0.015f : 0.0f});
+    for (uint32_t i = first; i < end; ++i)
+        p.frames.push_back({i, float(i) / 30.0f, 0.1f * float(i), 0.01f, 0.2f, i ? 0.9f : 0.0f, i ? 0.04f : 0.0f, i ? 0.01f : 0.0f,
+            i ? 0.02f : 0.0f, i ? 0.015f : 0.0f});
     if (first == 0) p.still = StaticRow{0.001f, 0.004f};
     else p.events.push_back({first, 100, 3, 0.5f});
     p.passes.push_back({"hbao.horizons", 2.0, 3.0});
@@ -55,7 +57,9 @@ TEST(Parts, gapsOverlapsAndOtherSettingsAreErrors) {
         try {
             joined(std::move(parts));
             return std::string();
-        } catch (const app::Complaint& c) { return std::string(c.what()); }
+        } catch (const app::Complaint& c) {
+            return std::string(c.what());
+        }
     };
     EXPECT_NE(complaint({part(0, 4), part(5, 6)}).find("missing"), std::string::npos);
     EXPECT_NE(complaint({part(0, 4), part(3, 6)}).find("twice"), std::string::npos);

@@ -71,7 +71,8 @@ TEST(CommandLine, InvalidOptionsPrintOneLine) {
 TEST(CommandLine, InvalidFilesPrintOneLine) {
     const auto folder = freshFolder("bad-files");
     const std::string scene = writeSmallScene(folder).string();
-    const std::string text = (folder / "text.glb").string(), camera = (folder / "camera.json").string(), path = (folder / "path.json").string();
+    const std::string text = (folder / "text.glb").string(), camera = (folder / "camera.json").string(),
+                      path = (folder / "path.json").string();
     std::ofstream(text) << "not a model";
     std::ofstream(camera) << R"({"eye": [0, 1], "target": [0, 0, 0]})";
     std::ofstream(path) << R"({"keys": []})";
@@ -118,9 +119,10 @@ TEST(CommandLine, RegistryAsJson) {
 TEST(CommandLine, HelpIsComplete) {
     const Ran ran = run({"--help"});
     EXPECT_EQ(ran.code, 0);
-    for (const char* word : {"--headless", "--frames", "--size", "--scene", "--method", "--set", "--falloff", "--time", "--view", "--screenshot", "--out",
-                             "--list-methods", "--json", "--device", "--guard", "--preset", "--validation", "--flythrough", "--camera", "--eye",
-                             "--switch-test", "--compare", "--split", "--difference-range", "--path", "--bare", "--measure", "Keys:", "F11", "Tab", "1..9"})
+    for (const char* word :
+        {"--headless", "--frames", "--size", "--scene", "--method", "--set", "--falloff", "--time", "--view", "--screenshot", "--out",
+            "--list-methods", "--json", "--device", "--guard", "--preset", "--validation", "--flythrough", "--camera", "--eye",
+            "--switch-test", "--compare", "--split", "--difference-range", "--path", "--bare", "--measure", "Keys:", "F11", "Tab", "1..9"})
         EXPECT_NE(ran.out.find(word), std::string::npos) << word;
 }
 

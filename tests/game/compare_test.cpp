@@ -22,7 +22,8 @@ protected:
     void TearDown() override { fs::remove_all(m_folder); }
     // The last of three frames, so that history has an influence.
     Decoded shoot(const std::string& name, std::vector<std::string> more) {
-        std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--size", "97x54", "--frames", "3", "--falloff", "quadratic:1", "--screenshot", file(name)};
+        std::vector<std::string> arguments{
+            "--headless", "--scene", m_scene, "--size", "97x54", "--frames", "3", "--falloff", "quadratic:1", "--screenshot", file(name)};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Ran ran = run(arguments);
         EXPECT_EQ(ran.code, 0) << ran.err;
@@ -63,9 +64,12 @@ TEST_F(Compare, EitherSideEqualsTheMethodAlone) {
 }
 
 TEST_F(Compare, DifferenceViewsShowSizeAndSign) {
-    const std::vector<std::string> both{"--method", "hbao", "--compare", "hbao,directions=2,denoise=0", "--difference-range", "0.5"};  // noise: of either sign
-    const Decoded a = shoot("a.png", with(both, {"--view", "visibility", "--split", "1"})), b = shoot("b.png", with(both, {"--view", "visibility", "--split", "0"}));
-    const Decoded size = shoot("size.png", with(both, {"--view", "difference"})), sign = shoot("sign.png", with(both, {"--view", "signed-difference"}));
+    const std::vector<std::string> both{
+        "--method", "hbao", "--compare", "hbao,directions=2,denoise=0", "--difference-range", "0.5"};  // noise: of either sign
+    const Decoded a = shoot("a.png", with(both, {"--view", "visibility", "--split", "1"})),
+                  b = shoot("b.png", with(both, {"--view", "visibility", "--split", "0"}));
+    const Decoded size = shoot("size.png", with(both, {"--view", "difference"})),
+                  sign = shoot("sign.png", with(both, {"--view", "signed-difference"}));
     ASSERT_EQ(size.rgb.size(), a.rgb.size());
     ASSERT_EQ(sign.rgb.size(), a.rgb.size());
     size_t lighter = 0, darker = 0;
@@ -93,7 +97,8 @@ TEST_F(Compare, PassNamesHaveThePrefixOfTheirSide) {
     };
     const std::string alone = passes(kA), both = passes({"--method", "hbao", "--compare", "hbao:8x4"});
     for (const char* word : {"A.", "B.", "split"}) EXPECT_EQ(alone.find(word), std::string::npos) << alone;
-    for (const char* word : {"A.hbao.", "B.hbao.", "A.prepare.", "B.prepare.", " split "}) EXPECT_NE(both.find(word), std::string::npos) << word << " is not in " << both;
+    for (const char* word : {"A.hbao.", "B.hbao.", "A.prepare.", "B.prepare.", " split "})
+        EXPECT_NE(both.find(word), std::string::npos) << word << " is not in " << both;
     const auto timings = nlohmann::json::parse(bytesOf(m_folder / "out" / "timings.json"));
     EXPECT_EQ(timings.at("compare").at("method"), "hbao");
     EXPECT_NE(timings.at("compare").at("parameters"), timings.at("parameters"));

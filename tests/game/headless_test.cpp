@@ -54,7 +54,7 @@ TEST_F(Headless, SameCommandSameBytes) {
 TEST_F(Headless, TimeMethodViewAndCameraChangeThePicture) {
     ASSERT_EQ(shoot("still.png", {}).code, 0);
     const std::vector<std::string> changes[] = {{"--time", "0.5"}, {"--method", "none"}, {"--view", "visibility"}, {"--view", "normals"},
-                                                {"--view", "pass:gbuffer"}, {"--eye", "0,3,6", "--target", "0,0,0"}, {"--fov", "40"}, {"--exposure", "4"}};
+        {"--view", "pass:gbuffer"}, {"--eye", "0,3,6", "--target", "0,0,0"}, {"--fov", "40"}, {"--exposure", "4"}};
     const std::string still = bytesOf(file("still.png"));
     for (const auto& change : changes) {
         const Ran ran = shoot("changed.png", change);

@@ -45,7 +45,8 @@ protected:
         m_scene = writeSmallScene(m_folder).string();
         m_path = (m_folder / "flown.path.json").string();
         std::ofstream(m_path) << nlohmann::json{{"scene", m_scene}, {"loop", false}, {"duration", 0.2},
-            {"keys", {{{"time", 0.3}, {"eye", {3, 2, 3}}, {"target", {0, 0, 0}}}, {{"time", 0.5}, {"eye", {2.5, 2.2, 3}}, {"target", {0, 0, 0}}}}}};
+            {"keys", {{{"time", 0.3}, {"eye", {3, 2, 3}}, {"target", {0, 0, 0}}},
+                         {{"time", 0.5}, {"eye", {2.5, 2.2, 3}}, {"target", {0, 0, 0}}}}}};
         ::setenv("OBSCURA_CACHE", (m_folder / "cache").c_str(), 1);
     }
     void TearDown() override {
@@ -53,7 +54,8 @@ protected:
         fs::remove_all(m_folder);
     }
     Ran play(const std::string& out, std::vector<std::string> more) {
-        std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--falloff", "quadratic:1", "--view", "visibility", "--measure", "--out", (m_folder / out).string()};
+        std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--falloff", "quadratic:1", "--view", "visibility",
+            "--measure", "--out", (m_folder / out).string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Ran ran = run(arguments);
         EXPECT_EQ(ran.code, 0) << ran.err;
@@ -66,17 +68,19 @@ protected:
 
 TEST_F(LiveMeasures, AgreeWithTheFlythroughTool) {
     const fs::path flown = m_folder / "flown";
-    const Ran tool = run({"--flythrough", m_path, "--length", "5", "--size", "64x36", "--rays", "256", "--falloff", "quadratic:1", "--method", "hbao", "--set",
-                          "denoise=0", "--filter", "spatial", "--no-pictures", "--out", flown.string()}, OBSCURA_FLYTHROUGH);
+    const Ran tool = run({"--flythrough", m_path, "--length", "5", "--size", "64x36", "--rays", "256", "--falloff", "quadratic:1",
+                             "--method", "hbao", "--set", "denoise=0", "--filter", "spatial", "--no-pictures", "--out", flown.string()},
+        OBSCURA_FLYTHROUGH);
     ASSERT_EQ(tool.code, 0) << tool.err;
-    const Ran ran = play("game", {"--path", m_path, "--frames", "5", "--size", "64x36", "--method", "hbao", "--set", "denoise=0", "--validation", "sync"});
+    const Ran ran = play(
+        "game", {"--path", m_path, "--frames", "5", "--size", "64x36", "--method", "hbao", "--set", "denoise=0", "--validation", "sync"});
     EXPECT_NE(ran.out.find("5 of 5 frames have a reference"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("validation: 0 messages"), std::string::npos) << ran.out;
     Table wanted = tableOf(flown / "frames.csv"), got = measures("game");
     ASSERT_EQ(wanted.size(), 5u);
     ASSERT_EQ(got.size(), 5u);
-    const std::pair<const char*, const char*> columns[] = {{"eA", "eA"}, {"bias", "bias"}, {"share", "share"}, {"difference", "D_A"}, {"excess_flicker", "excess"},
-                                                           {"flicker_of_error", "F_e"}};
+    const std::pair<const char*, const char*> columns[] = {{"eA", "eA"}, {"bias", "bias"}, {"share", "share"}, {"difference", "D_A"},
+        {"excess_flicker", "excess"}, {"flicker_of_error", "F_e"}};
     for (size_t i = 0; i < 5; ++i)
         for (const auto& [theirs, ours] : columns) {
             if (i == 0 && got[i][ours].empty()) continue;  // no previous frame
@@ -99,8 +103,9 @@ TEST_F(LiveMeasures, AgreeWithTheFlythroughTool) {
 }
 
 TEST_F(LiveMeasures, LargerImagesUseASmallReferenceAtEveryNthPixel) {
-    const Ran tool = run({"--flythrough", m_path, "--length", "2", "--size", "160x90", "--rays", "64", "--falloff", "quadratic:1", "--method", "none", "--filter", "raw",
-                          "--no-pictures", "--out", (m_folder / "flown").string()}, OBSCURA_FLYTHROUGH);
+    const Ran tool = run({"--flythrough", m_path, "--length", "2", "--size", "160x90", "--rays", "64", "--falloff", "quadratic:1",
+                             "--method", "none", "--filter", "raw", "--no-pictures", "--out", (m_folder / "flown").string()},
+        OBSCURA_FLYTHROUGH);
     ASSERT_EQ(tool.code, 0) << tool.err;
     const Ran small = play("small", {"--path", m_path, "--frames", "2", "--size", "160x90", "--method", "none"});
     const Ran large = play("large", {"--path", m_path, "--frames", "2", "--size", "480x270", "--method", "none"});

@@ -69,11 +69,13 @@ protected:
         m_scene = writeSmallScene(m_folder).string();
         m_path = (m_folder / "flown.path.json").string();
         std::ofstream(m_path) << nlohmann::json{{"name", "flown"}, {"scene", m_scene}, {"loop", false}, {"duration", 0.2},
-            {"keys", {{{"time", 0.3}, {"eye", {4, 2, 4}}, {"target", {0, 0, 0}}}, {{"time", 0.5}, {"eye", {3, 3, 5}}, {"target", {0, 0, 0}}}}}};
+            {"keys",
+                {{{"time", 0.3}, {"eye", {4, 2, 4}}, {"target", {0, 0, 0}}}, {{"time", 0.5}, {"eye", {3, 3, 5}}, {"target", {0, 0, 0}}}}}};
     }
     void TearDown() override { fs::remove_all(m_folder); }
     Ran fly(const std::string& out, std::vector<std::string> more = {}) {
-        std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--size", "96x54", "--path", m_path, "--out", (m_folder / out).string()};
+        std::vector<std::string> arguments{
+            "--headless", "--scene", m_scene, "--size", "96x54", "--path", m_path, "--out", (m_folder / out).string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments);
     }
@@ -88,7 +90,9 @@ TEST_F(Replay, IsDeterministicAndComplete) {
     for (int i = 0; i < 7; ++i) {
         EXPECT_FALSE(frame("a", i).empty()) << i;
         EXPECT_EQ(frame("a", i), frame("b", i)) << i;
-        if (i) { EXPECT_NE(frame("a", i), frame("a", i - 1)) << i; }
+        if (i) {
+            EXPECT_NE(frame("a", i), frame("a", i - 1)) << i;
+        }
     }
     EXPECT_TRUE(frame("a", 7).empty()) << "0.2 s have seven frames";
     // A replay from frame 3 on shows the same camera and world.

@@ -61,7 +61,8 @@ Decoded decodePng(const fs::path& file) {
     // stb_image accepts truncated files, so check for the final IEND chunk.
     if (bytes.size() < 12 || bytes.compare(bytes.size() - 8, 4, "IEND") != 0) return decoded;
     int channels = 0;
-    unsigned char* texels = stbi_load_from_memory(reinterpret_cast<const unsigned char*>(bytes.data()), int(bytes.size()), &decoded.width, &decoded.height, &channels, 3);
+    unsigned char* texels = stbi_load_from_memory(
+        reinterpret_cast<const unsigned char*>(bytes.data()), int(bytes.size()), &decoded.width, &decoded.height, &channels, 3);
     if (texels) decoded.rgb.assign(texels, texels + size_t(decoded.width) * size_t(decoded.height) * 3);
     stbi_image_free(texels);
     return decoded;

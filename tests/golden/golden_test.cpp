@@ -28,9 +28,9 @@ struct Family {
     double outliers;  // fraction of the pixels
 };
 constexpr Family kFamilies[] = {
-    {"llvmpipe", 5, 0.001},     // made the golden images; LLVM 15 and 19 round differently
-    {"SwiftShader", 5, 0.01},   // rounds differently: some pixels at silhouettes take another sample
-    {"", 5, 0.02},              // others, such as GPUs: texture filtering and fused multiply-add differ as well
+    {"llvmpipe", 5, 0.001},    // made the golden images; LLVM 15 and 19 round differently
+    {"SwiftShader", 5, 0.01},  // rounds differently: some pixels at silhouettes take another sample
+    {"", 5, 0.02},             // others, such as GPUs: texture filtering and fused multiply-add differ as well
 };
 const Family& familyOf(const std::string& output) {
     for (const Family& family : kFamilies)
@@ -54,8 +54,8 @@ void check(const std::string& method, const std::string& view) {
     const fs::path target = renew ? golden : made;
     fs::remove(made);
     const std::string command = obscura::test::shellCommand(
-        "{} --headless --scene toasters --time 2.5 --frames 1 --size 320x180 --method {} --view {} --screenshot {}", OBSCURA_GAME, method, view,
-        target);
+        "{} --headless --scene toasters --time 2.5 --frames 1 --size 320x180 --method {} --view {} --screenshot {}", OBSCURA_GAME, method,
+        view, target);
     const obscura::test::Ended ended = obscura::test::runShell(command);
     ASSERT_EQ(ended.code, 0) << command << "\n" << ended.error;
     const Pixels now(target), then(golden);
@@ -69,12 +69,13 @@ void check(const std::string& method, const std::string& view) {
     int worst = 0;
     for (size_t i = 0; i < count; ++i) {
         int difference = 0;
-        for (size_t c = 0; c < 3; ++c) difference = std::max(difference, std::abs(int(now.rgb.get()[i * 3 + c]) - int(then.rgb.get()[i * 3 + c])));
+        for (size_t c = 0; c < 3; ++c)
+            difference = std::max(difference, std::abs(int(now.rgb.get()[i * 3 + c]) - int(then.rgb.get()[i * 3 + c])));
         outliers += difference > family.tolerance;
         worst = std::max(worst, difference);
     }
     std::printf("  %-20s worst %3d/255, %4zu of %zu pixels over %d/255 (%s)\n", method.c_str(), worst, outliers, count, family.tolerance,
-                *family.name ? family.name : "another driver");
+        *family.name ? family.name : "another driver");
     EXPECT_LE(double(outliers), family.outliers * double(count)) << made << " differs from " << golden << ", worst by " << worst << "/255";
     if (!testing::Test::HasFailure() && !renew) fs::remove(made);
 }

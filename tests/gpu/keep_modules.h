@@ -28,10 +28,12 @@ namespace obscura::test {
 inline void keepModules() {
 #ifdef OBSCURA_KEEP_MODULES
     std::vector<std::string> names;
-    dl_iterate_phdr([](dl_phdr_info* info, size_t, void* list) {
-        static_cast<std::vector<std::string>*>(list)->emplace_back(info->dlpi_name);
-        return 0;
-    }, &names);
+    dl_iterate_phdr(
+        [](dl_phdr_info* info, size_t, void* list) {
+            static_cast<std::vector<std::string>*>(list)->emplace_back(info->dlpi_name);
+            return 0;
+        },
+        &names);
     for (const std::string& name : names)
         if (name.starts_with('/')) {
             if (void* module = dlopen(name.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE)) dlclose(module);

@@ -23,7 +23,9 @@ std::string scaleShader(const std::string& expression) {
            "layout(push_constant) uniform Push { uint count; float offset; };\n"
            "void main() {\n"
            "    uint i = gl_GlobalInvocationID.x;\n"
-           "    if (i < count) target.values[i] = " + expression + ";\n"
+           "    if (i < count) target.values[i] = " +
+           expression +
+           ";\n"
            "}\n";
 }
 
@@ -59,16 +61,20 @@ std::vector<float> run(const Program& program, float offset = 0.0f) {
     EXPECT_EQ(device.runNow([&](VkCommandBuffer cmd) {
         vk.CmdBindPipeline(cmd, program.bindPoint(), program.pipeline());
         vk.CmdBindDescriptorSets(cmd, program.bindPoint(), program.layout(), 0, 1, &set, 0, nullptr);
-        const struct { uint32_t count; float offset; } push{kCount, offset};
+        const struct {
+            uint32_t count;
+            float offset;
+        } push{kCount, offset};
         vk.CmdPushConstants(cmd, program.layout(), program.stages(), 0, sizeof(push), &push);
         vk.CmdDispatch(cmd, (kCount + program.workgroup()[0] - 1) / program.workgroup()[0], 1, 1);
-        const VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT,
-                                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
+        const VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
         VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
         info.memoryBarrierCount = 1;
         info.pMemoryBarriers = &memory;
         vk.CmdPipelineBarrier2(cmd, &info);
-    }), Status::ok);
+    }),
+        Status::ok);
     device.release(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool);
     const float* values = reinterpret_cast<const float*>(out.mapped());
     return {values, values + kCount};
@@ -78,7 +84,8 @@ TEST_F(ProgramTest, ComputesWithSpecializationAndPushConstants) {
     test::TestShaders shaders;
     shaders.add("scale.comp", scaleShader("source.values[i] * kScale + offset"));
     Program program;
-    ASSERT_EQ(Program::compute(test::device(), shaders.library, "scale.comp", {{3, std::bit_cast<uint32_t>(2.5f)}, {99, 1}}, program), Status::ok);
+    ASSERT_EQ(Program::compute(test::device(), shaders.library, "scale.comp", {{3, std::bit_cast<uint32_t>(2.5f)}, {99, 1}}, program),
+        Status::ok);
     EXPECT_EQ(program.workgroup(), (std::array<uint32_t, 3>{64, 1, 1}));
     EXPECT_EQ(program.pushConstantBytes(), 8u);
     EXPECT_EQ(program.stages(), VkShaderStageFlags(VK_SHADER_STAGE_COMPUTE_BIT));
@@ -196,10 +203,13 @@ TEST_F(ProgramTest, GraphicsMergesItsStages) {
     EXPECT_EQ(program.setLayout(3), VK_NULL_HANDLE);
     EXPECT_EQ(program.pushConstantBytes(), 16u);
 
-    shaders.add("other.frag", "#version 460\nlayout(binding = 0) uniform sampler2D map;\nlayout(location = 0) out vec4 c;\nvoid main() { c = texture(map, vec2(0)); }\n");
+    shaders.add("other.frag",
+        "#version 460\nlayout(binding = 0) uniform sampler2D map;\nlayout(location = 0) out vec4 c;\nvoid main() { c = texture(map, "
+        "vec2(0)); }\n");
     EXPECT_EQ(Program::graphics(test::device(), shaders.library, "triangle.vert", "other.frag", state, {}, program), Status::invalid);
     EXPECT_TRUE(test::loggedContains("disagree on what set 0 binding 0 is")) << test::allLogged();
-    ASSERT_EQ(Program::graphics(test::device(), shaders.library, "triangle.vert", "", {{}, VK_FORMAT_D32_SFLOAT, true, true}, {}, program), Status::ok)
+    ASSERT_EQ(Program::graphics(test::device(), shaders.library, "triangle.vert", "", {{}, VK_FORMAT_D32_SFLOAT, true, true}, {}, program),
+        Status::ok)
         << "depth only";
 }
 
@@ -207,15 +217,22 @@ TEST_F(ProgramTest, DrawsWithDynamicRendering) {
     Device& device = test::device();
     const Api& vk = device.vk();
     test::TestShaders shaders;
-    shaders.add("triangle.vert", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.5, 1.0); }\n");
-    shaders.add("fill.frag", "#version 460\nlayout(location = 0) out vec4 result;\nvoid main() { if (gl_FragCoord.x < 4.0) discard; result = vec4(0.0, 1.0, 0.0, 1.0); }\n");
+    shaders.add("triangle.vert",
+        "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.5, 1.0); "
+        "}\n");
+    shaders.add("fill.frag",
+        "#version 460\nlayout(location = 0) out vec4 result;\nvoid main() { if (gl_FragCoord.x < 4.0) discard; result = vec4(0.0, 1.0, "
+        "0.0, 1.0); }\n");
     GraphicsState state;
     state.colorFormats = {VK_FORMAT_R8G8B8A8_UNORM};
     Program program;
     ASSERT_EQ(Program::graphics(device, shaders.library, "triangle.vert", "fill.frag", state, {}, program), Status::ok);
     Image target;
-    ASSERT_EQ(Image::create(device, {VK_FORMAT_R8G8B8A8_UNORM, 8, 8, 1, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                            "target", target), Status::ok);
+    ASSERT_EQ(Image::create(device,
+                  {VK_FORMAT_R8G8B8A8_UNORM, 8, 8, 1, 1,
+                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                  "target", target),
+        Status::ok);
     ASSERT_EQ(upload(device, target, std::vector<std::byte>(8 * 8 * 4), VK_IMAGE_LAYOUT_GENERAL), Status::ok);
     ASSERT_EQ(device.runNow([&](VkCommandBuffer cmd) {
         VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
@@ -237,7 +254,8 @@ TEST_F(ProgramTest, DrawsWithDynamicRendering) {
         vk.CmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
         vk.CmdDraw(cmd, 3, 1, 0, 0);
         vk.CmdEndRendering(cmd);
-    }), Status::ok);
+    }),
+        Status::ok);
     std::vector<std::byte> texels;
     ASSERT_EQ(download(device, target.handle(), target.desc(), VK_IMAGE_LAYOUT_GENERAL, texels), Status::ok);
     for (size_t i = 0; i < 64; ++i) {

@@ -13,7 +13,8 @@ template <class Record> void recordAndDrop(gpu::Device& device, Record&& record)
     const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, device.queueFamily()};
     VkCommandPool pool = VK_NULL_HANDLE;
     ASSERT_EQ(vk.CreateCommandPool(device.handle(), &poolInfo, nullptr, &pool), VK_SUCCESS);
-    const VkCommandBufferAllocateInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    const VkCommandBufferAllocateInfo one{
+        VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
     VkCommandBuffer cmd = VK_NULL_HANDLE;
     EXPECT_EQ(vk.AllocateCommandBuffers(device.handle(), &one, &cmd), VK_SUCCESS);
     if (cmd) {

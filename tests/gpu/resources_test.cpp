@@ -26,13 +26,14 @@ std::vector<std::byte> readBack(Device& device, const Buffer& buffer) {
     EXPECT_EQ(device.runNow([&](VkCommandBuffer cmd) {
         const VkBufferCopy region{0, 0, buffer.bytes()};
         device.vk().CmdCopyBuffer(cmd, buffer.handle(), staging.handle(), 1, &region);
-        const VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
+        const VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_COPY_BIT,
+            VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
         VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
         info.memoryBarrierCount = 1;
         info.pMemoryBarriers = &memory;
         device.vk().CmdPipelineBarrier2(cmd, &info);
-    }), Status::ok);
+    }),
+        Status::ok);
     return {staging.mapped(), staging.mapped() + staging.bytes()};
 }
 
@@ -84,7 +85,8 @@ TEST_F(ResourcesTest, ImageRoundTrips) {
 
 TEST_F(ResourcesTest, DepthAndVolumeImagesRoundTrip) {
     Device& device = test::device();
-    for (const ImageDesc& desc : {ImageDesc{VK_FORMAT_D32_SFLOAT, 16, 9, 1, 1, kTexture}, ImageDesc{VK_FORMAT_R8_UNORM, 8, 4, 6, 1, kTexture}}) {
+    for (const ImageDesc& desc :
+        {ImageDesc{VK_FORMAT_D32_SFLOAT, 16, 9, 1, 1, kTexture}, ImageDesc{VK_FORMAT_R8_UNORM, 8, 4, 6, 1, kTexture}}) {
         Image image;
         ASSERT_EQ(Image::create(device, desc, "deep", image), Status::ok);
         std::vector<std::byte> texels;
@@ -123,7 +125,8 @@ TEST_F(ResourcesTest, MipsAreAverages) {
         copy.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         copy.extent = {1, 1, 1};
         device.vk().CmdCopyImage(cmd, image.handle(), VK_IMAGE_LAYOUT_GENERAL, one.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
-    }), Status::ok);
+    }),
+        Status::ok);
     ASSERT_EQ(download(device, one.handle(), one.desc(), VK_IMAGE_LAYOUT_GENERAL, last), Status::ok);
     for (std::byte channel : last) EXPECT_NEAR(int(channel), 150, 2);
 }
@@ -135,8 +138,10 @@ TEST_F(ResourcesTest, InvalidImagesAreRefusedWithALogLine) {
     EXPECT_EQ(Image::create(device, {VK_FORMAT_R8_UNORM, 0, 4, 1, 1, kTexture}, "flat", image), Status::invalid);
     EXPECT_EQ(Image::create(device, {VK_FORMAT_R8_UNORM, 8, 8, 1, 5, kTexture}, "mips", image), Status::invalid);
     EXPECT_EQ(Image::create(device, {VK_FORMAT_UNDEFINED, 8, 8, 1, 1, kTexture}, "format", image), Status::invalid);
-    EXPECT_EQ(Image::create(device, {VK_FORMAT_R8_UNORM, device.caps().maxImageSize + 1, 8, 1, 1, kTexture}, "wide", image), Status::unsupported);
-    EXPECT_EQ(Image::create(device, {VK_FORMAT_D32_SFLOAT, 8, 8, 1, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT}, "depth as colour", image), Status::unsupported);
+    EXPECT_EQ(
+        Image::create(device, {VK_FORMAT_R8_UNORM, device.caps().maxImageSize + 1, 8, 1, 1, kTexture}, "wide", image), Status::unsupported);
+    EXPECT_EQ(Image::create(device, {VK_FORMAT_D32_SFLOAT, 8, 8, 1, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT}, "depth as colour", image),
+        Status::unsupported);
     EXPECT_FALSE(image);
     EXPECT_EQ(test::logged().size(), 5u) << test::allLogged();
     EXPECT_TRUE(test::loggedContains("image 'depth as colour'"));

@@ -38,8 +38,8 @@ TEST(ShaderCompiler, ReflectsDeclaredInterfaces) {
     writeEverything(shaders);
     const Shader shader = shaders.compile("ao/everything.comp");
     EXPECT_EQ(describe(shader),
-              "comp 8 4 2 20 0.0:sampledImage:r:depth 0.1:storageImage:w:target 0.2:storageImage:r:volume 0.3:storageImage:rw:counters "
-              "0.4:storageBuffer:r:source 0.5:storageBuffer:w:Out 0.6:storageBuffer:rw:both 1.2:uniformBuffer:r:frame");
+        "comp 8 4 2 20 0.0:sampledImage:r:depth 0.1:storageImage:w:target 0.2:storageImage:r:volume 0.3:storageImage:rw:counters "
+        "0.4:storageBuffer:r:source 0.5:storageBuffer:w:Out 0.6:storageBuffer:rw:both 1.2:uniformBuffer:r:frame");
 }
 
 TEST(ShaderCompiler, NamesEveryFileItRead) {
@@ -49,7 +49,8 @@ TEST(ShaderCompiler, NamesEveryFileItRead) {
     std::string error;
     std::vector<std::filesystem::path> files;
     ASSERT_TRUE(compileShader(shaders.root() / "ao/everything.comp", shaders.root(), shader, error, files)) << error;
-    const std::vector<std::filesystem::path> expected{shaders.root() / "ao/everything.comp", shaders.root() / "shared/terms.h", shaders.root() / "ao/local.glsl"};
+    const std::vector<std::filesystem::path> expected{
+        shaders.root() / "ao/everything.comp", shaders.root() / "shared/terms.h", shaders.root() / "ao/local.glsl"};
     ASSERT_EQ(files.size(), expected.size());
     for (const auto& file : expected) EXPECT_NE(std::find(files.begin(), files.end(), file.lexically_normal()), files.end()) << file;
 }
@@ -59,7 +60,8 @@ TEST(ShaderCompiler, ErrorsCarryFileAndLine) {
     shaders.write("ao/broken.comp", "#version 460\nlayout(local_size_x = 1) in;\nvoid main() {\n    float a = nothing;\n}\n");
     EXPECT_EQ(shaders.compileError("ao/broken.comp"), "shaders/ao/broken.comp:4: 'nothing' : undeclared identifier");
     // Two errors in one line of code give two lines of text.
-    shaders.write("ao/broken.comp", "#version 460\nlayout(local_size_x = 1) in;\nstruct S { float a; };\nvoid main() {\n    S s;\n    float a = s.b + vec2(1);\n}\n");
+    shaders.write("ao/broken.comp",
+        "#version 460\nlayout(local_size_x = 1) in;\nstruct S { float a; };\nvoid main() {\n    S s;\n    float a = s.b + vec2(1);\n}\n");
     const std::string error = shaders.compileError("ao/broken.comp");
     EXPECT_TRUE(error.starts_with("shaders/ao/broken.comp:6: 'b' : no such field")) << error;
     EXPECT_NE(error.find("\nshaders/ao/broken.comp:6: "), std::string::npos) << error;
@@ -85,7 +87,8 @@ TEST(ShaderCompiler, RefusesUnsupportedFeatures) {
     EXPECT_NE(shaders.compileError("array.comp").find("shaders/array.comp: 'maps' is an array"), std::string::npos);
     shaders.write("separate.comp", head + "layout(binding = 0) uniform texture2D map;\nvoid main() {}\n");
     EXPECT_NE(shaders.compileError("separate.comp").find("'map'"), std::string::npos);
-    shaders.write("twice.comp", head + "layout(binding = 0) uniform sampler2D a;\nlayout(binding = 0) uniform sampler2D b;\nvoid main() {}\n");
+    shaders.write(
+        "twice.comp", head + "layout(binding = 0) uniform sampler2D a;\nlayout(binding = 0) uniform sampler2D b;\nvoid main() {}\n");
     EXPECT_NE(shaders.compileError("twice.comp").find("share set 0 binding 0"), std::string::npos);
     shaders.write("size.comp", "#version 460\nlayout(local_size_x_id = 0) in;\nvoid main() {}\n");
     EXPECT_NE(shaders.compileError("size.comp").find("workgroup"), std::string::npos);
@@ -138,8 +141,8 @@ TEST(ShaderText, DescribeAndUndescribeAgree) {
     shader.workgroup = {16, 2, 1};
     shader.pushConstantBytes = 128;
     shader.bindings = {{0, 0, BindingKind::sampledImage, true, false, "depth"}, {0, 7, BindingKind::storageImage, false, true, "target"},
-                       {2, 31, BindingKind::storageBuffer, true, true, "both"}, {3, 1, BindingKind::uniformBuffer, true, false, ""},
-                       {3, 2, BindingKind::storageBuffer, false, false, "neither"}};
+        {2, 31, BindingKind::storageBuffer, true, true, "both"}, {3, 1, BindingKind::uniformBuffer, true, false, ""},
+        {3, 2, BindingKind::storageBuffer, false, false, "neither"}};
     const std::string text = describe(shader);
     Shader read;
     read.spirv = {1, 2, 3};
@@ -152,8 +155,9 @@ TEST(ShaderText, DescribeAndUndescribeAgree) {
 }
 
 TEST(ShaderText, MalformedDescriptionsAreRefusedAndChangeNothing) {
-    for (const char* text : {"", "comp", "geom 1 1 1 0", "comp 1 1 0", "comp 1 1 x 0", "comp 1 1 -1 0", "comp 1 1 1 0 0.0", "comp 1 1 1 0 0.0:sampledImage",
-                             "comp 1 1 1 0 0.0:teapot:r:a", "comp 1 1 1 0 0.0:sampledImage:q:a", "comp 1 1 1 0 a.0:sampledImage:r:a", "comp 1 1 1 99999999999"}) {
+    for (const char* text : {"", "comp", "geom 1 1 1 0", "comp 1 1 0", "comp 1 1 x 0", "comp 1 1 -1 0", "comp 1 1 1 0 0.0",
+             "comp 1 1 1 0 0.0:sampledImage", "comp 1 1 1 0 0.0:teapot:r:a", "comp 1 1 1 0 0.0:sampledImage:q:a",
+             "comp 1 1 1 0 a.0:sampledImage:r:a", "comp 1 1 1 99999999999"}) {
         Shader shader;
         shader.pushConstantBytes = 77;
         EXPECT_FALSE(undescribe(text, shader)) << text;

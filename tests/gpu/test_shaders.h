@@ -20,7 +20,8 @@ public:
     TemporaryFolder() {
         const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
         for (int i = 0; m_path.empty(); ++i) {
-            const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / ("obscura-" + std::to_string(now) + "-" + std::to_string(i));
+            const std::filesystem::path path =
+                std::filesystem::path(testing::TempDir()) / ("obscura-" + std::to_string(now) + "-" + std::to_string(i));
             if (std::filesystem::create_directories(path)) m_path = path;
         }
     }

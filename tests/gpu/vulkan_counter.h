@@ -19,11 +19,11 @@ namespace obscura::test {
 
 // A vkCmdDispatch and its state.
 struct Dispatch {
-    std::string pass;                       // enclosing debug label; empty without labels
-    VkPipeline pipeline = VK_NULL_HANDLE;   // shader and specialization constants
-    uint32_t loops = 0;                     // in the shader's SPIR-V; for pipelines created while a counter existed
-    std::array<uint32_t, 3> groups{};       // workgroups
-    std::vector<std::byte> constants;       // push constants
+    std::string pass;                      // enclosing debug label; empty without labels
+    VkPipeline pipeline = VK_NULL_HANDLE;  // shader and specialization constants
+    uint32_t loops = 0;                    // in the shader's SPIR-V; for pipelines created while a counter existed
+    std::array<uint32_t, 3> groups{};      // workgroups
+    std::vector<std::byte> constants;      // push constants
     uint64_t workgroups() const { return uint64_t(groups[0]) * groups[1] * groups[2]; }
     bool operator==(const Dispatch&) const = default;
 
@@ -41,23 +41,29 @@ inline void PrintTo(const Dispatch& d, std::ostream* out) {
 }
 
 // Entry points that create an object, with the types of its create info and handle.
+// clang-format off
 #define OBSCURA_CREATING(X) \
     X(AllocateMemory, VkMemoryAllocateInfo, VkDeviceMemory) X(CreateImage, VkImageCreateInfo, VkImage) \
     X(CreateImageView, VkImageViewCreateInfo, VkImageView) X(CreateBuffer, VkBufferCreateInfo, VkBuffer) \
     X(CreateSampler, VkSamplerCreateInfo, VkSampler) X(CreateQueryPool, VkQueryPoolCreateInfo, VkQueryPool) \
-    X(CreateDescriptorPool, VkDescriptorPoolCreateInfo, VkDescriptorPool) X(CreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)
+    X(CreateDescriptorPool, VkDescriptorPoolCreateInfo, VkDescriptorPool) \
+    X(CreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)
+// clang-format on
 // Other counted entry points.
+// clang-format off
 #define OBSCURA_COUNTING(X) \
     X(CreateShaderModule) X(CreateComputePipelines) X(CreateGraphicsPipelines) \
     X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT) X(CmdBindPipeline) X(CmdPushConstants) X(CmdDispatch) X(CmdDraw) \
     X(CmdDrawIndexed) X(CmdWriteTimestamp2) X(CmdPipelineBarrier2) X(GetQueryPoolResults)
+// clang-format on
 
 class VulkanCounter {
 public:
     explicit VulkanCounter(gpu::Device& device) : m_table(const_cast<gpu::Api&>(device.vk())) {  // every Device object is non-const
         s_real = m_table;
         s_current = this;
-#define OBSCURA_HOOK(name) if (m_table.name) m_table.name = &VulkanCounter::name;
+#define OBSCURA_HOOK(name) \
+    if (m_table.name) m_table.name = &VulkanCounter::name;
 #define OBSCURA_HOOK_CREATING(name, Info, Handle) OBSCURA_HOOK(name)
         OBSCURA_COUNTING(OBSCURA_HOOK)
         OBSCURA_CREATING(OBSCURA_HOOK_CREATING)
@@ -78,7 +84,7 @@ public:
 
     // Since construction or clear().
     std::vector<Dispatch> dispatches;
-    std::vector<std::string> events;          // in recording order: "pass NAME", "end", "timestamp", "full barrier", "barrier", "dispatch", "draw"
+    std::vector<std::string> events;  // in recording order: "pass NAME", "end", "timestamp", "full barrier", "barrier", "dispatch", "draw"
     std::map<std::string, uint64_t> created;  // objects by entry point
     void clear() {
         dispatches.clear();
@@ -112,8 +118,10 @@ private:
     static PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char* name) {
         const PFN_vkVoidFunction found = s_real.GetDeviceProcAddr(device, name);
         if (!found) return nullptr;
+        // clang-format off
 #define OBSCURA_FIND(function) \
         if (!std::strcmp(name, "vk" #function)) return reinterpret_cast<PFN_vkVoidFunction>(&VulkanCounter::function);
+// clang-format on
 #define OBSCURA_FIND_CREATING(function, Info, Handle) OBSCURA_FIND(function)
         OBSCURA_COUNTING(OBSCURA_FIND)
         OBSCURA_CREATING(OBSCURA_FIND_CREATING)
@@ -122,11 +130,13 @@ private:
         return found;
     }
 
+    // clang-format off
 #define OBSCURA_COUNT_CREATING(name, Info, Handle)                                                                               \
     static VKAPI_ATTR VkResult VKAPI_CALL name(VkDevice device, const Info* info, const VkAllocationCallbacks* host, Handle* made) { \
         ++s_current->created[#name];                                                                                             \
         return s_real.name(device, info, host, made);                                                                            \
     }
+    // clang-format on
     OBSCURA_CREATING(OBSCURA_COUNT_CREATING)
 #undef OBSCURA_COUNT_CREATING
 
@@ -136,24 +146,22 @@ private:
         for (size_t at = kHeader; at < spirv.size() && spirv[at] >> 16; at += spirv[at] >> 16) count += (spirv[at] & 0xffff) == kLoopMerge;
         return count;
     }
-    static VKAPI_ATTR VkResult VKAPI_CALL CreateShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
-                                                             const VkAllocationCallbacks* host, VkShaderModule* made) {
+    static VKAPI_ATTR VkResult VKAPI_CALL CreateShaderModule(
+        VkDevice device, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks* host, VkShaderModule* made) {
         ++s_current->created["CreateShaderModule"];
         const VkResult result = s_real.CreateShaderModule(device, info, host, made);
         if (result == VK_SUCCESS) s_loopsOfModule[*made] = loopsOf({info->pCode, info->codeSize / 4});
         return result;
     }
     static VKAPI_ATTR VkResult VKAPI_CALL CreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
-                                                                 const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* host,
-                                                                 VkPipeline* made) {
+        const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* host, VkPipeline* made) {
         s_current->created["CreateComputePipelines"] += count;
         const VkResult result = s_real.CreateComputePipelines(device, cache, count, infos, host, made);
         for (uint32_t i = 0; result == VK_SUCCESS && i < count; ++i) s_loops[made[i]] = s_loopsOfModule[infos[i].stage.module];
         return result;
     }
     static VKAPI_ATTR VkResult VKAPI_CALL CreateGraphicsPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
-                                                                  const VkGraphicsPipelineCreateInfo* infos, const VkAllocationCallbacks* host,
-                                                                  VkPipeline* made) {
+        const VkGraphicsPipelineCreateInfo* infos, const VkAllocationCallbacks* host, VkPipeline* made) {
         s_current->created["CreateGraphicsPipelines"] += count;
         return s_real.CreateGraphicsPipelines(device, cache, count, infos, host, made);
     }
@@ -173,8 +181,8 @@ private:
         s_current->m_next.constants.clear();
         s_real.CmdBindPipeline(cmd, point, pipeline);
     }
-    static VKAPI_ATTR void VKAPI_CALL CmdPushConstants(VkCommandBuffer cmd, VkPipelineLayout layout, VkShaderStageFlags stages,
-                                                       uint32_t offset, uint32_t bytes, const void* values) {
+    static VKAPI_ATTR void VKAPI_CALL CmdPushConstants(
+        VkCommandBuffer cmd, VkPipelineLayout layout, VkShaderStageFlags stages, uint32_t offset, uint32_t bytes, const void* values) {
         std::vector<std::byte>& constants = s_current->m_next.constants;
         constants.resize(std::max(constants.size(), size_t(offset) + bytes));
         std::memcpy(constants.data() + offset, values, bytes);
@@ -186,17 +194,18 @@ private:
         s_current->events.push_back("dispatch");
         s_real.CmdDispatch(cmd, x, y, z);
     }
-    static VKAPI_ATTR void VKAPI_CALL CmdDraw(VkCommandBuffer cmd, uint32_t vertices, uint32_t instances, uint32_t firstVertex,
-                                              uint32_t firstInstance) {
+    static VKAPI_ATTR void VKAPI_CALL CmdDraw(
+        VkCommandBuffer cmd, uint32_t vertices, uint32_t instances, uint32_t firstVertex, uint32_t firstInstance) {
         s_current->events.push_back("draw");
         s_real.CmdDraw(cmd, vertices, instances, firstVertex, firstInstance);
     }
-    static VKAPI_ATTR void VKAPI_CALL CmdDrawIndexed(VkCommandBuffer cmd, uint32_t indices, uint32_t instances, uint32_t firstIndex,
-                                                     int32_t vertexOffset, uint32_t firstInstance) {
+    static VKAPI_ATTR void VKAPI_CALL CmdDrawIndexed(
+        VkCommandBuffer cmd, uint32_t indices, uint32_t instances, uint32_t firstIndex, int32_t vertexOffset, uint32_t firstInstance) {
         s_current->events.push_back("draw");
         s_real.CmdDrawIndexed(cmd, indices, instances, firstIndex, vertexOffset, firstInstance);
     }
-    static VKAPI_ATTR void VKAPI_CALL CmdWriteTimestamp2(VkCommandBuffer cmd, VkPipelineStageFlags2 stage, VkQueryPool pool, uint32_t query) {
+    static VKAPI_ATTR void VKAPI_CALL CmdWriteTimestamp2(
+        VkCommandBuffer cmd, VkPipelineStageFlags2 stage, VkQueryPool pool, uint32_t query) {
         s_current->events.push_back("timestamp");
         s_real.CmdWriteTimestamp2(cmd, stage, pool, query);
     }
@@ -205,14 +214,14 @@ private:
         bool full = false;
         for (uint32_t i = 0; i < info->memoryBarrierCount; ++i) {
             const VkMemoryBarrier2& b = info->pMemoryBarriers[i];
-            full |= b.srcStageMask == VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT && b.dstStageMask == b.srcStageMask &&
-                    b.srcAccessMask == kAny && b.dstAccessMask == kAny;
+            full |= b.srcStageMask == VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT && b.dstStageMask == b.srcStageMask && b.srcAccessMask == kAny &&
+                    b.dstAccessMask == kAny;
         }
         s_current->events.push_back(full ? "full barrier" : "barrier");
         s_real.CmdPipelineBarrier2(cmd, info);
     }
-    static VKAPI_ATTR VkResult VKAPI_CALL GetQueryPoolResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count, size_t bytes,
-                                                              void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
+    static VKAPI_ATTR VkResult VKAPI_CALL GetQueryPoolResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count,
+        size_t bytes, void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
         const VkResult result = s_real.GetQueryPoolResults(device, pool, first, count, bytes, data, stride, flags);
         ++s_current->queryReads;
         if (result == VK_SUCCESS && s_current->ticks) s_current->ticks({static_cast<uint64_t*>(data), count});

@@ -16,7 +16,8 @@ namespace {
 
 using gpu::Status;
 
-const char* const kHead = "#version 460\nlayout(local_size_x = 8, local_size_y = 8) in;\nlayout(push_constant) uniform Push { float value; uint loops; };\n";
+const char* const kHead =
+    "#version 460\nlayout(local_size_x = 8, local_size_y = 8) in;\nlayout(push_constant) uniform Push { float value; uint loops; };\n";
 
 // Programs of a test: fill (writes a value), add (out = in + value), addTextured (the same through a sampler), work (loops over a buffer).
 struct Kit {
@@ -25,16 +26,26 @@ struct Kit {
 
     Kit() {
         const std::string head = kHead;
-        shaders.add("fill.comp", head + "layout(binding = 0, r32f) uniform writeonly image2D target;\n"
-            "void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(value)); }\n");
-        shaders.add("add.comp", head + "layout(binding = 0, r32f) uniform readonly image2D source;\nlayout(binding = 1, r32f) uniform writeonly image2D target;\n"
-            "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(target, p, imageLoad(source, p) + value); }\n");
-        shaders.add("textured.comp", head + "layout(binding = 0) uniform sampler2D source;\nlayout(binding = 1, r32f) uniform writeonly image2D target;\n"
-            "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(target, p, texelFetch(source, p, 0) + value); }\n");
-        shaders.add("work.comp", head + "layout(binding = 0, std430) writeonly buffer Target { float target[]; };\n"
-            "void main() { float x = value; for (uint i = 0u; i < loops; ++i) x = sin(x * 1.7 + float(i)); target[gl_GlobalInvocationID.y * 256u + gl_GlobalInvocationID.x] = x; }\n");
-        shaders.add("full.vert", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex == 1 ? 3 : -1, gl_VertexIndex == 2 ? 3 : -1, 0, 1); }\n");
-        shaders.add("flat.frag", "#version 460\nlayout(push_constant) uniform Push { float value; uint loops; };\nlayout(location = 0) out float color;\nvoid main() { color = value; }\n");
+        shaders.add("fill.comp", head +
+                                     "layout(binding = 0, r32f) uniform writeonly image2D target;\n"
+                                     "void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(value)); }\n");
+        shaders.add("add.comp",
+            head +
+                "layout(binding = 0, r32f) uniform readonly image2D source;\nlayout(binding = 1, r32f) uniform writeonly image2D target;\n"
+                "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(target, p, imageLoad(source, p) + value); }\n");
+        shaders.add("textured.comp",
+            head +
+                "layout(binding = 0) uniform sampler2D source;\nlayout(binding = 1, r32f) uniform writeonly image2D target;\n"
+                "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(target, p, texelFetch(source, p, 0) + value); }\n");
+        shaders.add("work.comp", head +
+                                     "layout(binding = 0, std430) writeonly buffer Target { float target[]; };\n"
+                                     "void main() { float x = value; for (uint i = 0u; i < loops; ++i) x = sin(x * 1.7 + float(i)); "
+                                     "target[gl_GlobalInvocationID.y * 256u + gl_GlobalInvocationID.x] = x; }\n");
+        shaders.add("full.vert",
+            "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex == 1 ? 3 : -1, gl_VertexIndex == 2 ? 3 : -1, 0, 1); }\n");
+        shaders.add("flat.frag",
+            "#version 460\nlayout(push_constant) uniform Push { float value; uint loops; };\nlayout(location = 0) out float color;\nvoid "
+            "main() { color = value; }\n");
         gpu::Device& device = test::device();
         EXPECT_EQ(gpu::Program::compute(device, shaders.library, "fill.comp", {}, fill), Status::ok);
         EXPECT_EQ(gpu::Program::compute(device, shaders.library, "add.comp", {}, add), Status::ok);
@@ -46,7 +57,10 @@ struct Kit {
     }
 };
 
-struct Push { float value; uint32_t loops; };
+struct Push {
+    float value;
+    uint32_t loops;
+};
 
 class GraphTest : public test::GpuTest {
 protected:
@@ -55,23 +69,31 @@ protected:
     Graph m_graph{m_device};
     Executor m_executor{m_device};
 
-    void begin() { m_device.nextFrame(); m_graph.begin(); }
+    void begin() {
+        m_device.nextFrame();
+        m_graph.begin();
+    }
     Status submit() {
         Status status = Status::ok;
         const Status ran = m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); });
         return status == Status::ok ? ran : status;
     }
-    ImageId image(const char* name, uint32_t width = 16, uint32_t mips = 1) { return m_graph.image(name, {VK_FORMAT_R32_SFLOAT, width, width, 1, mips}); }
+    ImageId image(const char* name, uint32_t width = 16, uint32_t mips = 1) {
+        return m_graph.image(name, {VK_FORMAT_R32_SFLOAT, width, width, 1, mips});
+    }
 
     // Adds a copy of one texel into a buffer; value() reads it after submit().
     void probe(ImageId id, uint32_t mip = 0) {
         auto& buffer = m_probes.emplace_back();
         ASSERT_EQ(gpu::Buffer::create(m_device, 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "probe", buffer), Status::ok);
         const BufferId target = m_graph.import("probe", buffer, Graph::Shared::written);
-        m_graph.pass("probe").use(id, Access::transferRead).use(target, Access::transferWrite).record([id, mip, handle = buffer.handle()](const PassContext& c) {
-            const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1}, {}, {1, 1, 1}};
-            c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(id), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
-        });
+        m_graph.pass("probe")
+            .use(id, Access::transferRead)
+            .use(target, Access::transferWrite)
+            .record([id, mip, handle = buffer.handle()](const PassContext& c) {
+                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1}, {}, {1, 1, 1}};
+                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(id), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
+            });
     }
     float value(size_t probe) const {
         float result = 0.0f;
@@ -123,7 +145,8 @@ TEST_F(GraphTest, sharedImageIsNotOverwrittenBeforeItsReader) {
     ASSERT_EQ(submit(), Status::ok);
     EXPECT_FLOAT_EQ(value(0), 6.0f);
     // The last image also has transfer usage, so it is not shared.
-    EXPECT_NE(m_executor.plan().text(m_graph.recording()).find("image 0: 0 2 4\nimage 1: 1 3 5\nimage 2: 6\n"), std::string::npos) << m_executor.plan().text(m_graph.recording());
+    EXPECT_NE(m_executor.plan().text(m_graph.recording()).find("image 0: 0 2 4\nimage 1: 1 3 5\nimage 2: 6\n"), std::string::npos)
+        << m_executor.plan().text(m_graph.recording());
 }
 
 TEST_F(GraphTest, historyPersistsAndIsZeroAfterInvalidation) {
@@ -230,7 +253,8 @@ TEST_F(GraphTest, timestampFollowsEveryPassAndGivesItsTime) {
     if (!m_device.caps().timestamps) GTEST_SKIP() << "this device has no timestamps";
     const gpu::Caps& caps = m_device.caps();
     gpu::Buffer buffer;
-    ASSERT_EQ(gpu::Buffer::create(m_device, 256 * 256 * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::device, "work", buffer), Status::ok);
+    ASSERT_EQ(
+        gpu::Buffer::create(m_device, 256 * 256 * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::device, "work", buffer), Status::ok);
     test::VulkanCounter counter(m_device);
     counter.ticks = [&](std::span<uint64_t> ticks) {
         for (size_t i = 0; i < ticks.size(); ++i) ticks[i] = (caps.timestampMask - 4500 + 1000 * i * i) & caps.timestampMask;
@@ -265,13 +289,18 @@ TEST_F(GraphTest, timestampFollowsEveryPassAndGivesItsTime) {
     for (const PassTime& pass : timings.passes) names.push_back(pass.name);
     ASSERT_EQ(names, (std::vector<std::string>{"draw", "one", "probe"}));
     const double thousandTicks = 1000.0 * caps.timestampPeriod * 1e-6;  // ms
-    for (size_t i = 0; i < timings.passes.size(); ++i) EXPECT_NEAR(timings.passes[i].milliseconds, double(2 * i + 1) * thousandTicks, 1e-9) << i;
+    for (size_t i = 0; i < timings.passes.size(); ++i)
+        EXPECT_NEAR(timings.passes[i].milliseconds, double(2 * i + 1) * thousandTicks, 1e-9) << i;
     EXPECT_NEAR(timings.milliseconds, 9.0 * thousandTicks, 1e-9);
 
     m_executor.setTiming(false);
     begin();
     counter.clear();
-    m_graph.pass("one", m_kit.work).write(m_graph.import("one", buffer, Graph::Shared::constant)).constants(Push{0.3f, 1}).keep().dispatch(256, 256);
+    m_graph.pass("one", m_kit.work)
+        .write(m_graph.import("one", buffer, Graph::Shared::constant))
+        .constants(Push{0.3f, 1})
+        .keep()
+        .dispatch(256, 256);
     ASSERT_EQ(submit(), Status::ok);
     std::erase(counter.events, "barrier");
     EXPECT_EQ(counter.events, (std::vector<std::string>{"pass one", "dispatch", "end"}));

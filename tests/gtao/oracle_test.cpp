@@ -24,13 +24,13 @@ TEST_F(Oracle, highEqualsTheTranscription) {
 }
 
 // The error of XeGTAO's own shaders.
-TEST_F(Oracle, highHasThePublishedError) {
-    EXPECT_NEAR(measure("sponza_a", values({}), kFalloff, kWorld).raw.eA, 0.078f, 0.004f);
-}
+TEST_F(Oracle, highHasThePublishedError) { EXPECT_NEAR(measure("sponza_a", values({}), kFalloff, kWorld).raw.eA, 0.078f, 0.004f); }
 
 TEST_F(Oracle, tunedHasASmallerError) {
     for (const char* name : {"corner", "atrium"})
-        EXPECT_LT(measure(name, values({}, "tuned"), "quadratic:1", "world.quadratic_1").raw.eA, 0.8f * measure(name, values({}), "quadratic:1", "world.quadratic_1").raw.eA) << name;
+        EXPECT_LT(measure(name, values({}, "tuned"), "quadratic:1", "world.quadratic_1").raw.eA,
+            0.8f * measure(name, values({}), "quadratic:1", "world.quadratic_1").raw.eA)
+            << name;
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ public:
     const int slices, steps, blurs;
     static constexpr double radius = 1.0;  // metres
     static constexpr double kPi = 3.14159265358979;
-    static constexpr double kRadiusMultiplier = 1.457, kFalloffRange = 0.615, kDistribution = 2.0, kMipOffset = 3.30, kFinalPower = 2.2, kBeta = 1.2;
+    static constexpr double kRadiusMultiplier = 1.457, kFalloffRange = 0.615, kDistribution = 2.0, kMipOffset = 3.30, kFinalPower = 2.2,
+                            kBeta = 1.2;
 
     // Obscurance of the visible part. The projection must be a symmetric perspective.
     Picture run(const Room& room, const ao::Frame& frame) {
@@ -55,7 +56,9 @@ public:
 private:
     // Depth mips: the mean of four texels, weighted by their closeness to the farthest.
     void buildDepths(const Room& room) {
-        const auto level0 = [&](int x, int y) { return double(room.depth[size_t(std::min(y, m_height - 1)) * room.width + std::min(x, m_width - 1)]); };
+        const auto level0 = [&](int x, int y) {
+            return double(room.depth[size_t(std::min(y, m_height - 1)) * room.width + std::min(x, m_width - 1)]);
+        };
         const int w = (m_width + 15) / 16 * 16, h = (m_height + 15) / 16 * 16;
         m_depths.assign(5, {});
         for (int y = 0; y < h; ++y)
@@ -116,12 +119,15 @@ private:
                 for (int side = 0; side < 2; ++side) {
                     const glm::dvec2 at = glm::dvec2(px + 0.5, py + 0.5) + (side ? -offset : offset);
                     const glm::dvec3 delta = position(at.x, at.y, depth(int(std::floor(at.x)), int(std::floor(at.y)), level)) - centre;
-                    const double distance = glm::length(delta), weight = std::clamp(distance * (-1.0 / range) + from / range + 1.0, 0.0, 1.0);
+                    const double distance = glm::length(delta),
+                                 weight = std::clamp(distance * (-1.0 / range) + from / range + 1.0, 0.0, 1.0);
                     horizon[side] = std::max(horizon[side], glm::mix(low[side], glm::dot(delta / distance, view), weight));
                 }
             }
-            const double weight = glm::mix(length, 1.0, 0.05), h[2] = {-std::acos(std::clamp(horizon[1], -1.0, 1.0)), std::acos(std::clamp(horizon[0], -1.0, 1.0))};
-            for (const double each : h) visibility += weight * (cosNormal + 2.0 * each * std::sin(gamma) - std::cos(2.0 * each - gamma)) / 4.0;
+            const double weight = glm::mix(length, 1.0, 0.05),
+                         h[2] = {-std::acos(std::clamp(horizon[1], -1.0, 1.0)), std::acos(std::clamp(horizon[0], -1.0, 1.0))};
+            for (const double each : h)
+                visibility += weight * (cosNormal + 2.0 * each * std::sin(gamma) - std::cos(2.0 * each - gamma)) / 4.0;
         }
         return std::min(std::max(0.03, std::pow(std::max(visibility / slices, 0.0), kFinalPower)), 1.5);  // 1.5: the maximum that is stored
     }
@@ -141,12 +147,13 @@ private:
         const auto index = [&](int x, int y) { return size_t(std::clamp(y, 0, h - 1)) * w + std::clamp(x, 0, w - 1); };
         for (int y = 0; y < h; ++y)
             for (int x = 0; x < w; ++x) {
-                const glm::dvec4 left = edges[index(x - 1, y)], right = edges[index(x + 1, y)], top = edges[index(x, y - 1)], bottom = edges[index(x, y + 1)];
+                const glm::dvec4 left = edges[index(x - 1, y)], right = edges[index(x + 1, y)], top = edges[index(x, y - 1)],
+                                 bottom = edges[index(x, y + 1)];
                 glm::dvec4 e = edges[index(x, y)] * glm::dvec4(left.y, right.x, top.w, bottom.z);
                 const double edginess = std::clamp(4.0 - 2.5 - (e.x + e.y + e.z + e.w), 0.0, 1.0) / (4.0 - 2.5) * 0.5;
                 e = glm::clamp(e + edginess, 0.0, 1.0);
-                const double weights[9] = {0.425 * (e.x * left.z + e.z * top.x), e.z, 0.425 * (e.z * top.y + e.y * right.z), e.x, kBeta, e.y,
-                                           0.425 * (e.w * bottom.x + e.x * left.w), e.w, 0.425 * (e.y * right.w + e.w * bottom.y)};
+                const double weights[9] = {0.425 * (e.x * left.z + e.z * top.x), e.z, 0.425 * (e.z * top.y + e.y * right.z), e.x, kBeta,
+                    e.y, 0.425 * (e.w * bottom.x + e.x * left.w), e.w, 0.425 * (e.y * right.w + e.w * bottom.y)};
                 double sum = 0.0, total = 0.0;
                 for (int i = 0; i < 9; ++i) {
                     sum += weights[i] * source[index(x + i % 3 - 1, y + i / 3 - 1)];

@@ -19,13 +19,12 @@ protected:
 
 TEST_F(Terms, arcsLeaveConvexSolidsOpen) {
     const std::vector<std::vector<Solid>> worlds = {{{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}},
-                                                    {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}},
-                                                    {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
-                                                    {{Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}},
-                                                    {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
+        {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}}, {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
+        {{Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}}, {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
     for (size_t i = 0; i < worlds.size(); ++i) {
         EXPECT_LT(highest(run(roomOf(worlds[i]), values({{"mip_offset", 30}}, "tuned"), "ramp:0.385:1")), 0.5f / 255.0f) << "world " << i;
-        EXPECT_LT(mean(run(roomOf(worlds[i]), values({}, "tuned"), "ramp:0.385:1")), 0.001) << "world " << i;  // coarser depths deviate slightly from the plane
+        EXPECT_LT(mean(run(roomOf(worlds[i]), values({}, "tuned"), "ramp:0.385:1")), 0.001)
+            << "world " << i;  // coarser depths deviate slightly from the plane
     }
     // The published horizon does obscure a bare floor: the nearest texels raise it.
     EXPECT_GT(mean(run(roomOf(worlds[0]), values({}), "ramp:0.385:1")), 0.001);
@@ -37,7 +36,9 @@ TEST_F(Terms, arcsMatchTheReferenceBesideAWall) {
     const Room room = roomOf(world);
     ao::Falloff rho;
     ASSERT_TRUE(ao::parseFalloff("ramp:0.385:1", rho));
-    const Picture fine = run(room, values({{"slices", 16}, {"steps", 32}, {"mip_offset", 30}, {"denoise", 0}, {"radius_scale", 1}, {"power", 1}}, "tuned"), "ramp:0.385:1");
+    const Picture fine =
+        run(room, values({{"slices", 16}, {"steps", 32}, {"mip_offset", 30}, {"denoise", 0}, {"radius_scale", 1}, {"power", 1}}, "tuned"),
+            "ramp:0.385:1");
     int compared = 0;
     for (uint32_t y = room.guard; y < room.height - room.guard; ++y) {
         double found = 0.0, expected = 0.0;
@@ -56,7 +57,8 @@ TEST_F(Terms, arcsMatchTheReferenceBesideAWall) {
 TEST_F(Terms, largerRadiusScaleDarkens) {
     const Room room = roomOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}});
     for (const char* preset : {"default", "tuned"}) {
-        const double once = mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:1")), twice = mean(run(room, values({{"radius_scale", 2}}, preset), "quadratic:1"));
+        const double once = mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:1")),
+                     twice = mean(run(room, values({{"radius_scale", 2}}, preset), "quadratic:1"));
         EXPECT_GT(twice, 1.2 * once) << preset;
         // A falloff of twice the length has the same effect.
         EXPECT_NEAR(mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:2")), twice, 1e-4) << preset;

@@ -12,9 +12,10 @@ protected:
     // Floor, wall, box, ball and pillar, 160x90 and its guard band.
     static Room furnished() {
         using Kind = Solid::Kind;
-        Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -7}, {0.2f, 0, 1}}, {Kind::box, {0.6f, -1.2f, -4}, {0.4f, 0.3f, 0.5f}},
-                             {Kind::sphere, {-0.8f, -1.0f, -3.5f}, {0.5f, 0, 0}}, {Kind::cylinder, {-0.2f, 0, -5}, {0.08f, 0, 0}}},
-                            192, 108, 16);
+        Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -7}, {0.2f, 0, 1}},
+                                {Kind::box, {0.6f, -1.2f, -4}, {0.4f, 0.3f, 0.5f}}, {Kind::sphere, {-0.8f, -1.0f, -3.5f}, {0.5f, 0, 0}},
+                                {Kind::cylinder, {-0.2f, 0, -5}, {0.08f, 0, 0}}},
+            192, 108, 16);
         room.thickness.clear();
         room.second.clear();
         return room;
@@ -39,7 +40,8 @@ TEST_F(Transcription, defaultIsHigh) { EXPECT_TRUE(values({}) == values({}, "hig
 // Depth layers of infinite thickness give the published result, within the 1/32 resolution of a side.
 TEST_F(Transcription, infiniteLayersGiveThePublishedResult) {
     Room room = furnished();
-    const Changes fine{{"mip_offset", 30}, {"slices", 8}};  // level 0 only: coarser depths are means without layers and single texels with them
+    const Changes fine{
+        {"mip_offset", 30}, {"slices", 8}};  // level 0 only: coarser depths are means without layers and single texels with them
     const Picture bare = run(room, values(fine, "high"), "ramp:0.385:1");
     room.thickness.assign(room.depth.size(), 65504.0f);
     Changes layers = fine;

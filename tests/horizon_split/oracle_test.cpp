@@ -7,7 +7,9 @@ namespace {
 class Oracle : public OracleTest {
 protected:
     Oracle() : OracleTest("horizon_split") {}
-    truth::Metrics measure(const std::string& name, const ao::Values& values) { return OracleTest::measure(name, values, "linear:1.5", "world.linear_1.5"); }
+    truth::Metrics measure(const std::string& name, const ao::Values& values) {
+        return OracleTest::measure(name, values, "linear:1.5", "world.linear_1.5");
+    }
 };
 
 TEST_F(Oracle, cornerErrorIsBelowTheLimit) {

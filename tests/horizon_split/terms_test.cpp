@@ -64,7 +64,8 @@ class UnderAPlate : public HorizonSplitTest {
 protected:
     // One term at the bottom of the hole; by default infinite thickness and even steps, replaced by `changes`.
     float at(float height, Term term, const Changes& changes) {
-        Changes all = {{"steps", kSteps}, {"jitter", 0}, {"spacing", 0}, {"thickness", 100}, {"horizon_thickness", 100}, {"blur", 0}, {"term", float(term)}};
+        Changes all = {{"steps", kSteps}, {"jitter", 0}, {"spacing", 0}, {"thickness", 100}, {"horizon_thickness", 100}, {"blur", 0},
+            {"term", float(term)}};
         all.insert(all.end(), changes.begin(), changes.end());
         const Picture picture = run(hole(height), values(all), kFalloff);
         EXPECT_EQ(picture.size(), 1u);
@@ -74,7 +75,8 @@ protected:
 
 TEST_F(UnderAPlate, horizonTermIsTheSquaredSine) {
     // The sine of the plate's elevation at the first step is 0.6. Later steps pass in front of the plate.
-    for (const float directions : {1.0f, 4.0f, 7.0f, 8.0f, 24.0f}) EXPECT_NEAR(at(0.75f * kFirst, kHorizon, {{"directions", directions}}), 0.36f, 0.02f) << directions;
+    for (const float directions : {1.0f, 4.0f, 7.0f, 8.0f, 24.0f})
+        EXPECT_NEAR(at(0.75f * kFirst, kHorizon, {{"directions", directions}}), 0.36f, 0.02f) << directions;
 }
 
 TEST_F(UnderAPlate, raysDivideTheRangeAboveTheHorizon) {
@@ -89,7 +91,8 @@ TEST_F(UnderAPlate, blockedHemisphereIsOne) {
         for (const float rays : {1.0f, 4.0f}) {
             const Changes changes = {{"directions", directions}, {"normal_rays", rays}};
             EXPECT_NEAR(at(height, kHorizon, changes), 0.59f, 0.03f);
-            EXPECT_NEAR(at(height, kHorizon, changes) + at(height, kNormalRays, changes), 1.0f, 0.006f) << directions << " directions, " << rays << " rays";
+            EXPECT_NEAR(at(height, kHorizon, changes) + at(height, kNormalRays, changes), 1.0f, 0.006f)
+                << directions << " directions, " << rays << " rays";
             EXPECT_GT(at(height, kBoth, changes), 0.994f);
         }
     }
@@ -130,7 +133,8 @@ TEST_F(HorizonSplitTest, horizonsAndRaysAreSeparatePasses) {
     room.wall = -4.0f;
     room.build();
     run(room, values({}));
-    for (const char* pass : {"horizon_split.horizons", "horizon_split.normal rays", "horizon_split.blur"}) EXPECT_TRUE(m_passes.count(pass)) << pass;
+    for (const char* pass : {"horizon_split.horizons", "horizon_split.normal rays", "horizon_split.blur"})
+        EXPECT_TRUE(m_passes.count(pass)) << pass;
     run(room, values({}, "paper_fast"));
     EXPECT_FALSE(m_passes.count("horizon_split.normal rays"));
     run(room, values({{"blur", 0}}));

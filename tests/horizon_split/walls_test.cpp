@@ -42,7 +42,8 @@ double row(const Room& room, const Picture& picture, uint32_t y) {
 
 TEST_F(HorizonSplitTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
     // Check of the integral against independently computed values.
-    for (const auto& [a, exact] : {std::pair{0.10, 0.3556}, {0.25, 0.2361}, {0.50, 0.1178}, {1.0, 0.0174}}) EXPECT_NEAR(exactAtWall(a, 1.5), exact, 5e-4);
+    for (const auto& [a, exact] : {std::pair{0.10, 0.3556}, {0.25, 0.2361}, {0.50, 0.1178}, {1.0, 0.0174}})
+        EXPECT_NEAR(exactAtWall(a, 1.5), exact, 5e-4);
     const Room room = crease();
     // A line that meets the wall at a slant climbs it slowly: a few per cent are missing in the limit, more with few samples.
     const ao::Values fine = values({{"directions", 24}, {"steps", 64}, {"thickness", 100}, {"horizon_thickness", 100}, {"blur", 0}});
@@ -71,13 +72,16 @@ TEST_F(HorizonSplitTest, moreSamplesKeepTheLimit) {
     // An odd count's last direction has no partner; beyond 8 directions the horizons fill more than one row of words.
     for (const float directions : {5.0f, 6.0f, 7.0f, 8.0f, 9.0f, 16.0f, 17.0f, 24.0f})
         EXPECT_NEAR(mean(run(room, values({{"directions", directions}}))), limit, 0.06 * limit) << directions;
-    for (const float rays : {1.0f, 2.0f, 5.0f, 8.0f}) EXPECT_NEAR(mean(run(room, values({{"normal_rays", rays}}))), limit, 0.06 * limit) << rays;
+    for (const float rays : {1.0f, 2.0f, 5.0f, 8.0f})
+        EXPECT_NEAR(mean(run(room, values({{"normal_rays", rays}}))), limit, 0.06 * limit) << rays;
 }
 
 TEST_F(HorizonSplitTest, rayMarchingConvergesToTheSameResult) {
     const Room room = crease();
-    const Picture split = run(room, values({{"directions", 24}, {"steps", 64}, {"normal_rays", 2}, {"thickness", 100}, {"horizon_thickness", 100}}));
-    const Picture marched = run(room, values({{"directions", 24}, {"steps", 64}, {"normal_rays", 8}, {"thickness", 100}, {"term", kMarching}}));
+    const Picture split =
+        run(room, values({{"directions", 24}, {"steps", 64}, {"normal_rays", 2}, {"thickness", 100}, {"horizon_thickness", 100}}));
+    const Picture marched =
+        run(room, values({{"directions", 24}, {"steps", 64}, {"normal_rays", 8}, {"thickness", 100}, {"term", kMarching}}));
     double difference = 0.0;
     for (size_t i = 0; i < split.size(); ++i) difference += std::abs(split[i] - marched[i]);
     EXPECT_LT(difference / double(split.size()), 0.01);
@@ -140,7 +144,8 @@ TEST_F(HorizonSplitTest, paperBlurStopsAtDepthEdges) {
 
 TEST_F(HorizonSplitTest, everyPresetIsDeterministic) {
     const Room room = crease();
-    for (const ao::Preset& preset : ao::findMethod("horizon_split")->presets) EXPECT_EQ(run(room, values({}, preset.id)), run(room, values({}, preset.id))) << preset.id;
+    for (const ao::Preset& preset : ao::findMethod("horizon_split")->presets)
+        EXPECT_EQ(run(room, values({}, preset.id)), run(room, values({}, preset.id))) << preset.id;
 }
 
 }  // namespace

@@ -9,7 +9,9 @@ class HybridTest : public MethodTest {
 protected:
     HybridTest() : MethodTest("hybrid") {}
     // Full resolution, no filter.
-    static Changes plain(float rays, float steps, float offset) { return {{"rays", rays}, {"steps", steps}, {"offset", offset}, {"map", 1}, {"filter", 0}}; }
+    static Changes plain(float rays, float steps, float offset) {
+        return {{"rays", rays}, {"steps", steps}, {"offset", offset}, {"map", 1}, {"filter", 0}};
+    }
     static Room room(float wall) {
         Room result;
         result.wall = wall;
@@ -45,7 +47,8 @@ TEST_F(HybridTest, fullEnclosureIsOneAndEmptySpaceIsZero) {
     for (const char* preset : {"default", "paper", "quality"}) {
         const Picture picture = run(enclosed, values({}, preset), "constant:1");
         // Only the last row starts inside the window, which is smaller than the room.
-        for (uint32_t x = 0; x < enclosed.visibleWidth(); ++x) EXPECT_EQ(picture[size_t(enclosed.visibleHeight() - 1) * enclosed.visibleWidth() + x], 1.0f) << preset;
+        for (uint32_t x = 0; x < enclosed.visibleWidth(); ++x)
+            EXPECT_EQ(picture[size_t(enclosed.visibleHeight() - 1) * enclosed.visibleWidth() + x], 1.0f) << preset;
     }
     const Picture touching = run(enclosed, values(plain(128, 64, 0)), "wendland:2");
     EXPECT_GT(touching.back(), 0.97f);  // t -> 0
@@ -92,8 +95,8 @@ TEST_F(HybridTest, infiniteWallIsNearTheExactIntegral) {
         // Distances are too long by at most the lift along the normal.
         EXPECT_LT(mean, 1.03 * exact) << a;
         EXPECT_GT(mean, wallExact(a + 2 * 0.07, rho)) << a;
-        EXPECT_LT(coarseMean, exact) << a;          // steps longer than the thickness of the shell miss it,
-        EXPECT_GT(coarseMean, 0.15 * exact) << a;   // but not always
+        EXPECT_LT(coarseMean, exact) << a;         // steps longer than the thickness of the shell miss it,
+        EXPECT_GT(coarseMean, 0.15 * exact) << a;  // but not always
         ++rows;
     }
     EXPECT_GE(rows, 4u);
@@ -134,7 +137,9 @@ TEST_F(HybridTest, withoutVolumeNothingIsBlockedAndOneLineIsLogged) {
     Room none = room(-5.0f);
     none.bits.clear();
     for (int i = 0; i < 3; ++i) EXPECT_EQ(highest(run(none, values({}), "wendland:2")), 0.0f);
-    EXPECT_EQ(std::count_if(logged().begin(), logged().end(), [](const std::string& line) { return line.find("no volume") != std::string::npos; }), 1);
+    EXPECT_EQ(std::count_if(
+                  logged().begin(), logged().end(), [](const std::string& line) { return line.find("no volume") != std::string::npos; }),
+        1);
 }
 
 }  // namespace

@@ -16,11 +16,13 @@ namespace fs = std::filesystem;
 void expectError(const std::string& scene, double most) {
     const char* named = std::getenv("OBSCURA_ORACLE");
     const fs::path folder = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
-    if (!fs::exists(folder / (scene + ".glb"))) GTEST_SKIP() << "no " << folder / (scene + ".glb") << "; set OBSCURA_ORACLE to the stored references";
+    if (!fs::exists(folder / (scene + ".glb")))
+        GTEST_SKIP() << "no " << folder / (scene + ".glb") << "; set OBSCURA_ORACLE to the stored references";
     const fs::path result = fs::path(testing::TempDir()) / ("obscura-hybrid-" + scene + ".json");
     const std::string command = obscura::test::shellCommand(
         "{} --scene {} --camera scene:0 --size 320x180 --method hybrid --falloff wendland:2 --reference {} --channel world.wendland_2"
-        " --frames 1 --warm-up 1 --json {}", OBSCURA_EVALUATE, folder / (scene + ".glb"), folder / (scene + ".reference.exr"), result);
+        " --frames 1 --warm-up 1 --json {}",
+        OBSCURA_EVALUATE, folder / (scene + ".glb"), folder / (scene + ".reference.exr"), result);
     const obscura::test::Ended ended = obscura::test::runShell(command);
     ASSERT_EQ(ended.code, 0) << command << "\n" << ended.error;
     const nlohmann::json report = nlohmann::json::parse(std::ifstream(result));

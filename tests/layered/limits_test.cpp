@@ -8,10 +8,8 @@ using Kind = Solid::Kind;
 
 TEST_F(LayeredTest, convexSolidsAreExactlyOpen) {
     const std::vector<std::vector<Solid>> worlds = {{{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}},
-                                                    {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}},
-                                                    {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
-                                                    {{Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}},
-                                                    {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
+        {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}}, {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
+        {{Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}}, {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
     for (size_t i = 0; i < worlds.size(); ++i) {
         const Room room = frameOf(worlds[i], 200, 120, 20);
         for (const auto& changes : {Changes{{"steps", 4}}, Changes{{"slices", 3}}, Changes{{"depth_layers", 0}, {"thickness", 1000}}})
@@ -23,7 +21,8 @@ TEST_F(LayeredTest, slicesCoverTheHemisphere) {
     // Slices are uniform around the view ray; directions uniform on the screen would have a mean error of 0.034 here.
     const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0.3f, 1, 0.05f}}}, 200, 120, 20);
     m_probe = "layered.parts";
-    for (const auto& [slices, tolerance] : {std::pair{16.0f, 0.004f}, {9.0f, 0.011f}}) {  // plus half a quantization step of the stored value
+    for (const auto& [slices, tolerance] :
+        {std::pair{16.0f, 0.004f}, {9.0f, 0.011f}}) {  // plus half a quantization step of the stored value
         run(room, values({{"slices", slices}, {"steps", 1}}, "reference"), "ramp:0.385:1");
         for (uint32_t y = 0; y < m_probed.height; ++y)
             for (uint32_t x = 0; x < m_probed.width; ++x) {
@@ -61,7 +60,8 @@ TEST_F(LayeredTest, everySizeAndSkyGiveValidObscurance) {
         for (const bool half : {false, true})
             for (const char* preset : {"default", "fastest", "fast", "balanced", "quality", "reference"}) {
                 const Room room = frameOf(world, width, height, guard, half);
-                for (const float a : run(room, values({}, preset), "exponential:1")) EXPECT_TRUE(a >= 0.0f && a <= 1.0f) << width << "x" << height << " " << preset;
+                for (const float a : run(room, values({}, preset), "exponential:1"))
+                    EXPECT_TRUE(a >= 0.0f && a <= 1.0f) << width << "x" << height << " " << preset;
             }
     Room sky = frameOf({}, 32, 24, 2);
     EXPECT_EQ(highest(run(sky, values({}), "quadratic:2")), 0.0f);
@@ -69,7 +69,8 @@ TEST_F(LayeredTest, everySizeAndSkyGiveValidObscurance) {
 
 TEST_F(LayeredTest, reducedMapMatchesFullResolution) {
     // Along a row of the floor the distance to the wall is constant: rows must be even, without steps between pixels of the map.
-    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 383, 215, 32);  // the last pixels of the map cover fewer pixels
+    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 383, 215,
+        32);  // the last pixels of the map cover fewer pixels
     const Picture all = run(room, values({{"slices", 16}}), "linear:3");
     for (const float map : {2.0f, 3.0f}) {
         const Picture some = run(room, values({{"slices", 16}, {"map", map}}), "linear:3");
@@ -78,7 +79,9 @@ TEST_F(LayeredTest, reducedMapMatchesFullResolution) {
         for (uint32_t y = 0; y < room.visibleHeight(); ++y) {
             const uint32_t first = 120, end = 200;
             const size_t row = size_t(y) * room.visibleWidth();
-            const auto normalAt = [&](int there) { return room.normals[4 * (size_t(int(y + room.guard) + there) * room.width + first + room.guard) + 1]; };
+            const auto normalAt = [&](int there) {
+                return room.normals[4 * (size_t(int(y + room.guard) + there) * room.width + first + room.guard) + 1];
+            };
             if (normalAt(0) < 0.5f || normalAt(-12) < 0.5f || all[row + first] < 0.02f) continue;  // a tile away from the edge
             double dark = 0.0, apart = 0.0, change = 0.0;
             for (uint32_t x = first; x < end; ++x) {

@@ -73,7 +73,7 @@ inline Room frameOf(const std::vector<Solid>& solids, uint32_t width, uint32_t h
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
             const glm::vec3 d(((float(x) + 0.5f) / float(width) * 2.0f - 1.0f) / room.projection[0],
-                              ((float(y) + 0.5f) / float(height) * 2.0f - 1.0f) / room.projection[5], -1.0f);
+                ((float(y) + 0.5f) / float(height) * 2.0f - 1.0f) / room.projection[5], -1.0f);
             std::vector<Hit> hits;
             Hit hit;
             for (const Solid& solid : solids)
@@ -101,7 +101,8 @@ inline double worldObscurance(const std::vector<Solid>& solids, const glm::vec3&
     std::uniform_real_distribution<float> uniform;
     double sum = 0.0;
     for (int i = 0; i < rays; ++i) {
-        const float u = (float(i) + uniform(random)) / float(rays), phi = 6.2831853f * std::fmod(float(i) * 0.61803399f, 1.0f), r = std::sqrt(u);
+        const float u = (float(i) + uniform(random)) / float(rays), phi = 6.2831853f * std::fmod(float(i) * 0.61803399f, 1.0f),
+                    r = std::sqrt(u);
         const glm::vec3 d = r * std::cos(phi) * t + r * std::sin(phi) * b + std::sqrt(1.0f - u) * n;
         float nearest = std::numeric_limits<float>::infinity();
         Hit hit;
@@ -115,7 +116,7 @@ inline double worldObscurance(const std::vector<Solid>& solids, const glm::vec3&
 inline glm::vec3 pointAt(const Room& room, uint32_t x, uint32_t y) {  // guard band included
     const float z = room.depth[size_t(y) * room.width + x];
     return z * glm::vec3(((float(x) + 0.5f) / float(room.width) * 2.0f - 1.0f) / room.projection[0],
-                         ((float(y) + 0.5f) / float(room.height) * 2.0f - 1.0f) / room.projection[5], -1.0f);
+                   ((float(y) + 0.5f) / float(room.height) * 2.0f - 1.0f) / room.projection[5], -1.0f);
 }
 
 class LayeredTest : public MethodTest {

@@ -23,9 +23,11 @@ double exactAtWall(double a) {
 
 TEST_F(LayeredTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
     // Check of the integral against independently computed values.
-    for (const auto& [a, exact] : {std::pair{0.10, 0.4017}, {0.25, 0.2610}, {0.50, 0.0845}, {0.75, 0.0133}}) EXPECT_NEAR(exactAtWall(a), exact, 5e-4);
+    for (const auto& [a, exact] : {std::pair{0.10, 0.4017}, {0.25, 0.2610}, {0.50, 0.0845}, {0.75, 0.0133}})
+        EXPECT_NEAR(exactAtWall(a), exact, 5e-4);
     const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 384, 216, 32);
-    for (const auto& [changes, preset, tolerance] : {std::tuple{Changes{{"steps", 4}}, "default", 0.012}, {Changes{}, "default", 0.011}, {Changes{}, "reference", 0.004}}) {
+    for (const auto& [changes, preset, tolerance] :
+        {std::tuple{Changes{{"steps", 4}}, "default", 0.012}, {Changes{}, "default", 0.011}, {Changes{}, "reference", 0.004}}) {
         const Picture picture = run(room, values(changes, preset), kRamp);
         // Row by row. Samples interleaved over 4x4 pixels are compared with the exact mean over the gathered rows.
         std::vector<double> found, exact, distance;
@@ -34,7 +36,8 @@ TEST_F(LayeredTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
             const double a = 5.0 - room.depth[i];
             if (room.normals[4 * i + 1] < 0.5f || a > 1.5) continue;
             double sum = 0.0;
-            for (uint32_t x = room.visibleWidth() / 4; x < 3 * room.visibleWidth() / 4; ++x) sum += picture[size_t(y) * room.visibleWidth() + x];
+            for (uint32_t x = room.visibleWidth() / 4; x < 3 * room.visibleWidth() / 4; ++x)
+                sum += picture[size_t(y) * room.visibleWidth() + x];
             found.push_back(sum / (room.visibleWidth() / 2));
             exact.push_back(exactAtWall(a));
             distance.push_back(a);
@@ -57,7 +60,9 @@ TEST_F(LayeredTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
 }
 
 // Error and bias on surfaces with a normal along `axis`, at every third pixel on both axes where `judged` holds.
-struct Errors { double eA = 0.0, bias = 0.0, reference = 0.0; };
+struct Errors {
+    double eA = 0.0, bias = 0.0, reference = 0.0;
+};
 Errors facing(int axis, bool (*judged)(const glm::vec3&), const Room& room, const Picture& picture, const std::vector<Solid>& world) {
     glm::vec3 n(0);
     n[axis] = 1.0f;
@@ -70,7 +75,8 @@ Errors facing(int axis, bool (*judged)(const glm::vec3&), const Room& room, cons
             const glm::vec3 p = pointAt(room, x + room.guard, y + room.guard);
             const size_t i = size_t(y + room.guard) * room.width + x + room.guard;
             if (room.normals[4 * i + size_t(axis)] < 0.9f || !judged(p)) continue;
-            const double exact = worldObscurance(world, p, n, rho, 2000), off = double(picture[size_t(y) * room.visibleWidth() + x]) - exact;
+            const double exact = worldObscurance(world, p, n, rho, 2000),
+                         off = double(picture[size_t(y) * room.visibleWidth() + x]) - exact;
             result.eA += std::abs(off);
             result.bias += off;
             result.reference += exact;
@@ -103,21 +109,26 @@ TEST_F(LayeredTest, floorBetweenThinPostsHasNoBias) {
     // Posts are a few px wide and strata dozens of px: a sample that hits a post represents samples that miss it.
     std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}};
     for (int i = 0; i < 63; ++i)
-        world.push_back({Kind::box, {-1.6f + 0.4f * float(i % 9) + 0.13f * float(i / 9 % 3), -1.2f, -2.8f - 0.4f * float(i / 9)}, {0.015f, 0.3f, 0.015f}});
+        world.push_back({Kind::box, {-1.6f + 0.4f * float(i % 9) + 0.13f * float(i / 9 % 3), -1.2f, -2.8f - 0.4f * float(i / 9)},
+            {0.015f, 0.3f, 0.015f}});
     const Room room = frameOf(world, 512, 296, 32);
     const auto between = [](const glm::vec3& p) { return p.y < -1.49f && std::abs(p.x) < 1.2f && p.z < -3.0f && p.z > -4.8f; };
-    const Errors few = facing(1, between, room, run(room, values({}), kRamp), world), many = facing(1, between, room, run(room, values({}, "reference"), kRamp), world);
+    const Errors few = facing(1, between, room, run(room, values({}), kRamp), world),
+                 many = facing(1, between, room, run(room, values({}, "reference"), kRamp), world);
     EXPECT_GT(few.reference, 0.09);
     EXPECT_LT(std::abs(few.bias), 0.01);
     EXPECT_LT(std::abs(many.bias), 0.01);
 }
 
 TEST_F(LayeredTest, moreSamplesReduceTheError) {
-    const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {-0.4f, 0, -7.4f}, {0.1f, 0, 0}}, {Kind::box, {0.5f, -0.3f, -7.8f}, {0.2f, 0.3f, 0.2f}}};
+    const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {-0.4f, 0, -7.4f}, {0.1f, 0, 0}},
+        {Kind::box, {0.5f, -0.3f, -7.8f}, {0.2f, 0.3f, 0.2f}}};
     const Room room = frameOf(world, 512, 296, 32);
     double before = 1.0;
-    for (const auto& [slices, steps, side] : {std::tuple{1.0f, 2.0f, 3.0f}, {1.0f, 4.0f, 3.0f}, {1.0f, 9.0f, 3.0f}, {12.0f, 9.0f, 1.0f}, {16.0f, 16.0f, 1.0f}, {16.0f, 32.0f, 0.0f}}) {
-        const double error = onWall(room, run(room, values({{"slices", slices}, {"steps", steps}, {"interleave", side}}, "quality"), kRamp), world).eA;
+    for (const auto& [slices, steps, side] : {std::tuple{1.0f, 2.0f, 3.0f}, {1.0f, 4.0f, 3.0f}, {1.0f, 9.0f, 3.0f}, {12.0f, 9.0f, 1.0f},
+             {16.0f, 16.0f, 1.0f}, {16.0f, 32.0f, 0.0f}}) {
+        const double error =
+            onWall(room, run(room, values({{"slices", slices}, {"steps", steps}, {"interleave", side}}, "quality"), kRamp), world).eA;
         EXPECT_LT(error, before) << slices << " x " << steps;
         before = error;
     }
@@ -126,9 +137,11 @@ TEST_F(LayeredTest, moreSamplesReduceTheError) {
 TEST_F(LayeredTest, depthLayersReduceTheErrorOfOtherMethods) {
     const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::cylinder, {0, 0, -7.4f}, {0.1f, 0, 0}}};
     const Room room = frameOf(world, 512, 296, 32);
-    for (const auto& [method, preset] : {std::pair{"hbao", "default"}, {"horizon_split", "default"}, {"gtao", "default"}, {"gtao", "tuned"}}) {
+    for (const auto& [method, preset] :
+        {std::pair{"hbao", "default"}, {"horizon_split", "default"}, {"gtao", "default"}, {"gtao", "tuned"}}) {
         m_method = method;
-        const Errors bare = onWall(room, run(room, values({}, preset), kRamp), world), ended = onWall(room, run(room, values({{"depth_layers", 3}}, preset), kRamp), world);
+        const Errors bare = onWall(room, run(room, values({}, preset), kRamp), world),
+                     ended = onWall(room, run(room, values({{"depth_layers", 3}}, preset), kRamp), world);
         printf("%s %s: eA %.4f, bias %+.4f; with layers %.4f, %+.4f\n", method, preset, bare.eA, bare.bias, ended.eA, ended.bias);
         EXPECT_LT(ended.eA, 0.8 * bare.eA) << method << " " << preset;
         EXPECT_LT(std::abs(ended.bias), std::abs(bare.bias)) << method;
@@ -137,9 +150,11 @@ TEST_F(LayeredTest, depthLayersReduceTheErrorOfOtherMethods) {
 
 TEST_F(LayeredTest, secondLayerShowsTheHiddenBoard) {
     // The second board is visible only in the second layer.
-    const std::vector<Solid> world = {{Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::box, {0, 0, -6.6f}, {0.4f, 5, 0.05f}}, {Kind::box, {0, 0, -7.7f}, {0.5f, 5, 0.05f}}};
+    const std::vector<Solid> world = {
+        {Kind::plane, {0, 0, -8}, {0, 0, 1}}, {Kind::box, {0, 0, -6.6f}, {0.4f, 5, 0.05f}}, {Kind::box, {0, 0, -7.7f}, {0.5f, 5, 0.05f}}};
     const Room room = frameOf(world, 512, 296, 32);
-    const Errors two = onWall(room, run(room, values({}, "reference"), kRamp), world), one = onWall(room, run(room, values({{"depth_layers", 1}}, "reference"), kRamp), world);
+    const Errors two = onWall(room, run(room, values({}, "reference"), kRamp), world),
+                 one = onWall(room, run(room, values({{"depth_layers", 1}}, "reference"), kRamp), world);
     EXPECT_LT(two.eA, 0.3 * one.eA);
     EXPECT_LT(two.eA, 0.012);
     EXPECT_LT(one.bias, -0.02);

@@ -16,7 +16,8 @@ Room blocks(const std::array<float, 4>& depths) {
 
 TEST_F(Levels, blockDownsamplesToItsMedianOrSecondNearest) {
     readLevel("depth", 2);  // the threshold is half of 2 m
-    for (const auto& far : {std::array{1.0f, 2.0f, 3.0f, 10.0f}, std::array{10.0f, 1.0f, 2.0f, 3.0f}, std::array{3.0f, 10.0f, 1.0f, 2.0f}}) {
+    for (const auto& far :
+        {std::array{1.0f, 2.0f, 3.0f, 10.0f}, std::array{10.0f, 1.0f, 2.0f, 3.0f}, std::array{3.0f, 10.0f, 1.0f, 2.0f}}) {
         run(blocks(far), values({}, "paper"));
         EXPECT_FLOAT_EQ(depthAt(90, 50), 2.0f);
     }

@@ -165,7 +165,8 @@ TEST_F(Obscurance, memoryIsBelowTwiceThatOfOneLevel) {
 // Each step is a separate pass with its own time.
 TEST_F(Obscurance, eachStepIsAPass) {
     run(hall(), values({}, "fast"));
-    for (const char* pass : {"downsample 1/2", "downsample 1/4", "sample 1/1", "sample 1/2", "sample 1/4", "filter 1/2", "filter 1/4", "upsample 1/1", "upsample 1/2"})
+    for (const char* pass : {"downsample 1/2", "downsample 1/4", "sample 1/1", "sample 1/2", "sample 1/4", "filter 1/2", "filter 1/4",
+             "upsample 1/1", "upsample 1/2"})
         EXPECT_TRUE(m_passes.count(std::string("multi_resolution.") + pass)) << pass;
 }
 

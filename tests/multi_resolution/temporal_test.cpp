@@ -24,7 +24,8 @@ protected:
     std::vector<Picture> frames(const std::vector<ao::Setting>& settings, float start, int count, Moves moves) {
         const fs::path content = fs::path(OBSCURA_SOURCE_DIR) / "content";
         fs::path file = content / "toasters.glb";
-        if (const char* named = std::getenv("OBSCURA_CONTENT"); named && *named && !fs::exists(file)) file = fs::path(named) / "toasters.glb";
+        if (const char* named = std::getenv("OBSCURA_CONTENT"); named && *named && !fs::exists(file))
+            file = fs::path(named) / "toasters.glb";
         if (!fs::exists(file)) skip("no " + file.string() + "; build the target 'content', which generates it");
         scene::World world;
         world.add(instanceOf(scene::loadGltf(file)));
@@ -75,8 +76,10 @@ protected:
                     float history = 0.0f;
                     for (uint32_t i = 0; i < 4 && agrees; ++i) {
                         const uint32_t qx = uint32_t(corner.x) + (i & 1), qy = uint32_t(corner.y) + (i >> 1);
-                        agrees = std::abs(depthAt(then, qx, qy) / z - 1.0f) < 0.02f && glm::dot(then.normalAt(qx + gx, qy + gy), now.normalAt(x + gx, y + gy)) > 0.9f;
-                        history += visibilityAt(then, qx, qy) * (i & 1 ? fraction.x : 1 - fraction.x) * (i >> 1 ? fraction.y : 1 - fraction.y);
+                        agrees = std::abs(depthAt(then, qx, qy) / z - 1.0f) < 0.02f &&
+                                 glm::dot(then.normalAt(qx + gx, qy + gy), now.normalAt(x + gx, y + gy)) > 0.9f;
+                        history +=
+                            visibilityAt(then, qx, qy) * (i & 1 ? fraction.x : 1 - fraction.x) * (i >> 1 ? fraction.y : 1 - fraction.y);
                     }
                     if (!agrees) continue;
                     sum += std::abs(double(visibilityAt(now, x, y) - history));
@@ -96,7 +99,8 @@ TEST_F(Flythrough, filterReducesFlicker) {
         for (const float start : {2.0f, 12.0f}) {
             const double raw = reprojectedDifference(frames({{"temporal", 0}}, start, 12, {true, toasters}));
             const double filtered = reprojectedDifference(frames({}, start, 12, {true, toasters}));
-            printf("from %.1f s%s: reprojected difference %.5f, filtered %.5f, ratio %.3f\n", double(start), toasters ? ", walking" : "", raw, filtered, filtered / raw);
+            printf("from %.1f s%s: reprojected difference %.5f, filtered %.5f, ratio %.3f\n", double(start), toasters ? ", walking" : "",
+                raw, filtered, filtered / raw);
             EXPECT_GT(raw, 0.001);
             EXPECT_LE(filtered, (toasters ? 0.65 : 0.6) * raw);
         }
@@ -114,12 +118,14 @@ TEST_F(Flythrough, walkingToastersLeaveNoTrail) {
             const float difference = std::abs(visibilityAt(now, x, y) - visibilityAt(bare.back(), x, y));
             everywhere += double(difference);
             visible += difference > 0.1f;
-            if (!std::isfinite(depthAt(now, x, y)) || depthAt(then, x, y) > 0.95f * depthAt(now, x, y)) continue;  // keep only pixels disoccluded in this frame
+            if (!std::isfinite(depthAt(now, x, y)) || depthAt(then, x, y) > 0.95f * depthAt(now, x, y))
+                continue;  // keep only pixels disoccluded in this frame
             worst = std::max(worst, difference);
             ++disoccluded;
         }
     const size_t count = size_t(now.visibility.width) * now.visibility.height;
-    printf("%zu px disoccluded, worst %.4f; whole image: mean %.5f, %zu px by more than 0.1\n", disoccluded, double(worst), everywhere / double(count), visible);
+    printf("%zu px disoccluded, worst %.4f; whole image: mean %.5f, %zu px by more than 0.1\n", disoccluded, double(worst),
+        everywhere / double(count), visible);
     EXPECT_GT(disoccluded, 50u);
     EXPECT_LT(worst, 0.1f) << "history of the occluder remains";
     EXPECT_LT(everywhere / double(count), 0.004);

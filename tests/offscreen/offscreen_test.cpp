@@ -137,7 +137,9 @@ TEST_F(OffScreenTest, withoutVolumeNothingIsAddedAndOneLineIsLogged) {
     none.bits.clear();
     const Picture alone = with(none, kOff);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(with(none, kHidden), alone);
-    EXPECT_EQ(std::count_if(logged().begin(), logged().end(), [](const std::string& line) { return line.find("has no volume") != std::string::npos; }), 1);
+    EXPECT_EQ(std::count_if(logged().begin(), logged().end(),
+                  [](const std::string& line) { return line.find("has no volume") != std::string::npos; }),
+        1);
 }
 
 TEST_F(OffScreenTest, boxOutsideTheImageHasItsExactObscurance) {
@@ -171,11 +173,15 @@ TEST_F(OffScreenTest, boxOutsideTheImageHasItsExactObscurance) {
         }
         ASSERT_GT(count, 500u);
         const double n = double(count);
-        printf("%-18s %zu px lack the box, obscurance %.4f; error alone %.4f, offscreen %.4f, hidden %.4f: %.1f times less; of the added part %.4f: %.1f times\n", info->id,
-               count, mean / n, error[0] / n, error[1] / n, error[2] / n, error[0] / error[2], added[2] / n, added[0] / added[2]);
+        printf(
+            "%-18s %zu px lack the box, obscurance %.4f; error alone %.4f, offscreen %.4f, hidden %.4f: %.1f times less; of the added part "
+            "%.4f: %.1f times\n",
+            info->id, count, mean / n, error[0] / n, error[1] / n, error[2] / n, error[0] / error[2], added[2] / n, added[0] / added[2]);
         EXPECT_LT(added[1], added[0] / 8) << info->id;
         EXPECT_LT(added[2], added[0] / 8) << info->id;
-        if (!info->baseline) { EXPECT_LT(error[2], error[0] / 8) << info->id; }
+        if (!info->baseline) {
+            EXPECT_LT(error[2], error[0] / 8) << info->id;
+        }
     }
 }
 
@@ -205,16 +211,20 @@ TEST_F(OffScreenTest, obscuranceIsConstantWhileTheBoxLeavesTheImage) {
         m_method = info->id;
         Range whole[2];
         // Methods that are accurate while the box is visible lose it without voxels; with voxels only their noise remains.
-        const bool sees = std::string(info->id) == "hbao" || std::string(info->id) == "horizon_split" || std::string(info->id) == "far_field";
+        const bool sees =
+            std::string(info->id) == "hbao" || std::string(info->id) == "horizon_split" || std::string(info->id) == "far_field";
         for (int step = sees ? 0 : 24; step <= 24; ++step) {
             box.turnTo((31.0 - 60.0 * (1.0 - step / 24.0)) * TallBox::kPi / 180);
             for (const float what : {kOff, kHidden}) whole[what == kHidden].add(obscurance(box, p, what));
         }
         const double outside = obscurance(box, p, kHidden) - obscurance(box, p, kOff);
-        printf("%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; voxels add %.4f once the box is outside\n",
-               info->id, truth, whole[0].changes(), whole[1].changes(), outside);
+        printf(
+            "%-17s obscurance %.4f changes by %.1f / 255 without voxels, %.1f / 255 with them; voxels add %.4f once the box is outside\n",
+            info->id, truth, whole[0].changes(), whole[1].changes(), outside);
         EXPECT_NEAR(outside, truth, 0.02) << info->id;
-        if (sees) { EXPECT_LT(whole[1].changes(), whole[0].changes() / 4) << info->id; }
+        if (sees) {
+            EXPECT_LT(whole[1].changes(), whole[0].changes() / 4) << info->id;
+        }
     }
 }
 

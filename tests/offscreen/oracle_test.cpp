@@ -21,10 +21,12 @@ struct Error {
 // Errors by method; `settings` as on the command line.
 std::map<std::string, Error> errors(const fs::path& folder, const std::string& scene, const std::string& settings) {
     const fs::path result = fs::path(testing::TempDir()) / ("obscura-offscreen-" + scene + ".json");
-    const std::string command = obscura::test::shellCommand(
-        "{} --scene {} --camera scene:0 --size 320x180 --falloff quadratic:2 --reference {} --channel world.quadratic_2"
-        " --frames 1 --warm-up 0 --json {} ",
-        OBSCURA_EVALUATE, folder / (scene + ".glb"), folder / (scene + ".reference.exr"), result) + settings;
+    const std::string command =
+        obscura::test::shellCommand(
+            "{} --scene {} --camera scene:0 --size 320x180 --falloff quadratic:2 --reference {} --channel world.quadratic_2"
+            " --frames 1 --warm-up 0 --json {} ",
+            OBSCURA_EVALUATE, folder / (scene + ".glb"), folder / (scene + ".reference.exr"), result) +
+        settings;
     const obscura::test::Ended ended = obscura::test::runShell(command);
     EXPECT_EQ(ended.code, 0) << command << "\n" << ended.error;
     std::map<std::string, Error> list;
@@ -36,13 +38,16 @@ std::map<std::string, Error> errors(const fs::path& folder, const std::string& s
 void expectNoWorse(const std::string& scene) {
     const char* named = std::getenv("OBSCURA_ORACLE");
     const fs::path folder = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
-    if (!fs::exists(folder / (scene + ".glb"))) GTEST_SKIP() << "no " << folder / (scene + ".glb") << "; set OBSCURA_ORACLE to the stored references";
-    const std::string methods = "--method hbao,multi_resolution,horizon_split,statistical,far_field --set far_field.thickness=0.1 --set far_field.averaging=none";
+    if (!fs::exists(folder / (scene + ".glb")))
+        GTEST_SKIP() << "no " << folder / (scene + ".glb") << "; set OBSCURA_ORACLE to the stored references";
+    const std::string methods =
+        "--method hbao,multi_resolution,horizon_split,statistical,far_field --set far_field.thickness=0.1 --set far_field.averaging=none";
     const auto alone = errors(folder, scene, methods), hidden = errors(folder, scene, methods + " --offscreen hidden");
     ASSERT_EQ(alone.size(), 5u);
     for (const auto& [method, error] : alone) {
         const Error& both = hidden.at(method);
-        printf("%-7s %-17s quadratic:2 world: eA %.4f alone, %.4f with hidden occluders\n", scene.c_str(), method.c_str(), error.eA, both.eA);
+        printf(
+            "%-7s %-17s quadratic:2 world: eA %.4f alone, %.4f with hidden occluders\n", scene.c_str(), method.c_str(), error.eA, both.eA);
         EXPECT_LE(both.eA, error.eA) << method;
         // In the corner nearly all occluders are visible, so little may be added.
         if (scene == "corner" && method != "far_field") {

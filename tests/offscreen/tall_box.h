@@ -37,7 +37,8 @@ struct TallBox : Room {
         const double fy = 1.0 / std::tan(kPi / 6) * visibleTall() / height, fx = fy * height / width;
         const float p[16] = {float(fx), 0, 0, 0, 0, float(-fy), 0, 0, 0, 0, 0, -1, 0, 0, 0.1f, 0};
         std::memcpy(projection, p, sizeof(p));
-        const float scale = 1.0f / kCell, half = 0.5f * float(volume.cells), c = float(std::cos(yaw)) * scale, s = float(std::sin(yaw)) * scale;
+        const float scale = 1.0f / kCell, half = 0.5f * float(volume.cells), c = float(std::cos(yaw)) * scale,
+                    s = float(std::sin(yaw)) * scale;
         const float columns[16] = {c, 0, -s, 0, 0, scale, 0, 0, s, 0, c, 0, half, half, half, 1};
         std::copy(std::begin(columns), std::end(columns), volume.cellFromEye);
         depth.assign(size_t(width) * height, 1e4f);
@@ -76,7 +77,8 @@ struct TallBox : Room {
     // Position of a world point in the visible part, px.
     std::array<double, 2> pixelOf(const Point& p) const {
         const double right = p[0] * std::cos(yaw) - p[2] * std::sin(yaw), ahead = -p[0] * std::sin(yaw) - p[2] * std::cos(yaw);
-        return {(right / ahead * double(projection[0]) + 1.0) * 0.5 * width - guards.width, (p[1] / ahead * double(projection[5]) + 1.0) * 0.5 * height - guards.height};
+        return {(right / ahead * double(projection[0]) + 1.0) * 0.5 * width - guards.width,
+            (p[1] / ahead * double(projection[5]) + 1.0) * 0.5 * height - guards.height};
     }
 
     // Distance along d to the box in lengths of d, and the axis of the face; 1e9: none.
@@ -97,7 +99,8 @@ struct TallBox : Room {
         double sum = 0.0;
         for (int i = 0; i < kSide; ++i)
             for (int k = 0; k < kSide; ++k) {
-                const double square = (i + 0.5) / kSide, azimuth = 2.0 * kPi * (k + 0.5) / kSide, across = std::sqrt(square);  // cosine-weighted
+                const double square = (i + 0.5) / kSide, azimuth = 2.0 * kPi * (k + 0.5) / kSide,
+                             across = std::sqrt(square);  // cosine-weighted
                 int axis = 0;
                 const double t = hit(p, {across * std::cos(azimuth), std::sqrt(1.0 - square), across * std::sin(azimuth)}, axis);
                 if (t < 1e8) sum += double(ao::evaluate(rho, float(t)));

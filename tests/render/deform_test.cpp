@@ -15,9 +15,11 @@ class Deform : public GpuTest {};
 
 std::vector<std::byte> contents(gpu::Device& device, VkBuffer source, uint64_t bytes) {
     gpu::Buffer back;
-    EXPECT_EQ(gpu::Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "readback", back), gpu::Status::ok);
+    EXPECT_EQ(
+        gpu::Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "readback", back), gpu::Status::ok);
     const VkBufferCopy region{0, 0, bytes};
-    EXPECT_EQ(device.runNow([&](VkCommandBuffer cmd) { device.vk().CmdCopyBuffer(cmd, source, back.handle(), 1, &region); }), gpu::Status::ok);
+    EXPECT_EQ(
+        device.runNow([&](VkCommandBuffer cmd) { device.vk().CmdCopyBuffer(cmd, source, back.handle(), 1, &region); }), gpu::Status::ok);
     return {back.mapped(), back.mapped() + bytes};
 }
 
@@ -71,7 +73,8 @@ void compareWithCpu(std::shared_ptr<const scene::Model> model) {
                 moved = moved || glm::length(p - drawable.primitive->source->positions[v]) > 0.05f;
                 const scene::Bounds& box = drawable.bounds;
                 const glm::vec3 world_ = glm::vec3(instance.placement * glm::vec4(expected[v], 1.0f));
-                ASSERT_TRUE(glm::all(glm::greaterThanEqual(world_, box.min - 1e-4f)) && glm::all(glm::lessThanEqual(world_, box.max + 1e-4f)))
+                ASSERT_TRUE(
+                    glm::all(glm::greaterThanEqual(world_, box.min - 1e-4f)) && glm::all(glm::lessThanEqual(world_, box.max + 1e-4f)))
                     << "bounds do not contain vertex " << v;
             }
             EXPECT_LT(worst, 1e-5f);

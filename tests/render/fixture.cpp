@@ -26,14 +26,19 @@ void copyOut(graph::Graph& graph, graph::ImageId image, Readback& back, Pixels& 
     target.height = desc.height;
     target.bytes.resize(size_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format));
     back.target = &target;
-    if (gpu::Buffer::create(graph.device(), target.bytes.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "readback", back.buffer) != gpu::Status::ok)
+    if (gpu::Buffer::create(graph.device(), target.bytes.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "readback",
+            back.buffer) != gpu::Status::ok)
         throw std::runtime_error("no readback buffer");
     const graph::BufferId to = graph.import("readback", back.buffer, graph::Graph::Shared::written);
     const VkBuffer handle = back.buffer.handle();
     const VkBufferImageCopy region{0, 0, 0, {gpu::aspectOf(desc.format), 0, 0, 1}, {}, {desc.width, desc.height, 1}};
-    graph.pass("read back").use(image, graph::Access::transferRead).use(to, graph::Access::transferWrite).keep().record([=](const graph::PassContext& c) {
-        c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
-    });
+    graph.pass("read back")
+        .use(image, graph::Access::transferRead)
+        .use(to, graph::Access::transferWrite)
+        .keep()
+        .record([=](const graph::PassContext& c) {
+            c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
+        });
 }
 
 }  // namespace
@@ -50,7 +55,8 @@ glm::vec3 Picture::normalAt(uint32_t x, uint32_t y) const {
 }
 
 glm::vec3 Picture::colorAt(float x, float y) const {
-    const float px = glm::clamp(x - 0.5f, 0.0f, float(color.width - 1) - 0.001f), py = glm::clamp(y - 0.5f, 0.0f, float(color.height - 1) - 0.001f);
+    const float px = glm::clamp(x - 0.5f, 0.0f, float(color.width - 1) - 0.001f),
+                py = glm::clamp(y - 0.5f, 0.0f, float(color.height - 1) - 0.001f);
     const uint32_t ix = uint32_t(px), iy = uint32_t(py);
     const auto texel = [&](uint32_t i, uint32_t j) { return glm::vec3(color.at<glm::u8vec4>(i, j)); };
     const glm::vec3 top = glm::mix(texel(ix, iy), texel(ix + 1, iy), px - float(ix));

@@ -18,10 +18,10 @@ struct Pixels {
 struct Picture {
     VkExtent2D size{}, guard{};
     Pixels color, visibility, depth, normals, motion;
-    Pixels thickness, second;                             // halves, pairs of floats; empty if the method reads no depth layers
-    glm::vec2 motionAt(uint32_t x, uint32_t y) const;     // px, guard band included
-    glm::vec3 normalAt(uint32_t x, uint32_t y) const;     // eye space
-    glm::vec3 colorAt(float x, float y) const;            // bilinear, levels, pixel centres at whole numbers + 0.5
+    Pixels thickness, second;                          // halves, pairs of floats; empty if the method reads no depth layers
+    glm::vec2 motionAt(uint32_t x, uint32_t y) const;  // px, guard band included
+    glm::vec3 normalAt(uint32_t x, uint32_t y) const;  // eye space
+    glm::vec3 colorAt(float x, float y) const;         // bilinear, levels, pixel centres at whole numbers + 0.5
 };
 
 class RenderFixture {

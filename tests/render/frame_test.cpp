@@ -230,9 +230,13 @@ TEST_F(Frame, voxelsAreUploadedInCulledFrames) {
         ASSERT_TRUE(bool(bits));
         bytes = uint64_t(volume.cells) * volume.cells * volume.cells / 8;
         if (isRead) {
-            ASSERT_EQ(gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
-            graph.pass("read back").use(bits, graph::Access::transferRead).use(graph.import("back", back, graph::Graph::Shared::written), graph::Access::transferWrite)
-                .keep().record([&, bits](const graph::PassContext& c) {
+            ASSERT_EQ(gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
+                gpu::Status::ok);
+            graph.pass("read back")
+                .use(bits, graph::Access::transferRead)
+                .use(graph.import("back", back, graph::Graph::Shared::written), graph::Access::transferWrite)
+                .keep()
+                .record([&, bits](const graph::PassContext& c) {
                     const VkBufferCopy region{c.buffer(bits).offset, 0, bytes};
                     c.device.vk().CmdCopyBuffer(c.cmd, c.buffer(bits).buffer, back.handle(), 1, &region);
                 });

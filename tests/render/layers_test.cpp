@@ -22,7 +22,8 @@ float thicknessAt(const Picture& picture, uint32_t x, uint32_t y) { return glm::
 
 class Layers : public GpuTest {
 protected:
-    Picture draw(const scene::World& world, ao::LayerMode use, render::LayerForm form, const std::function<void(render::FrameOptions&)>& change = {}) {
+    Picture draw(const scene::World& world, ao::LayerMode use, render::LayerForm form,
+        const std::function<void(render::FrameOptions&)>& change = {}) {
         m_values.set("depth_layers", float(use));
         render::FrameOptions options = m_fixture.options();
         options.method = &m_values;
@@ -46,7 +47,9 @@ scene::World oneWorld(std::shared_ptr<const scene::Model> model) {
 }
 
 // Number of covered pixels, and of those with finite thickness and with none.
-struct Counts { size_t covered = 0, thick = 0, sheet = 0; };
+struct Counts {
+    size_t covered = 0, thick = 0, sheet = 0;
+};
 Counts count(const Picture& picture) {
     Counts result;
     for (uint32_t y = 0; y < picture.size.height; ++y)
@@ -88,13 +91,17 @@ TEST_F(Layers, thicknessOfACubeIsExact) {
 }
 
 TEST_F(Layers, layersAreOrderedByDepth) {
-    const Picture picture = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.35f; });
+    const Picture picture =
+        draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.35f; });
     size_t seconds = 0, solids = 0;
     for (uint32_t y = 0; y < picture.size.height; ++y)
         for (uint32_t x = 0; x < picture.size.width; ++x) {
             const float z = depthAt(picture, x, y), t = thicknessAt(picture, x, y);
             const glm::vec2 second = picture.second.at<glm::vec2>(x, y);
-            if (z == 0.0f) { EXPECT_EQ(t, 65504.0f); continue; }
+            if (z == 0.0f) {
+                EXPECT_EQ(t, 65504.0f);
+                continue;
+            }
             EXPECT_GE(t, 0.0f);
             EXPECT_GE(second.y, 0.0f);
             solids += t > 0.0f;
@@ -150,13 +157,15 @@ TEST_F(Layers, cheaperTechniqueIsChosenByTime) {
         EXPECT_EQ(picture.thickness, first.thickness) << frame;
         EXPECT_EQ(picture.second, first.second) << frame;
     }
-    EXPECT_TRUE(std::any_of(logged().begin(), logged().end(), [](const std::string& line) { return line.find("layers: two depth layers are drawn by") != std::string::npos; }));
+    EXPECT_TRUE(std::any_of(logged().begin(), logged().end(),
+        [](const std::string& line) { return line.find("layers: two depth layers are drawn by") != std::string::npos; }));
 }
 
 TEST_F(Layers, halfSizeIsEverySecondPixel) {
     for (const render::LayerForm form : {render::LayerForm::peeling, render::LayerForm::ladder}) {
         const auto odd = [](render::FrameOptions& o) { o.visible = {301, 199}; };
-        const Picture whole = draw(mixedWorld(), ao::LayerMode::second, form, odd), half = draw(mixedWorld(), ao::LayerMode::secondHalf, form, odd);
+        const Picture whole = draw(mixedWorld(), ao::LayerMode::second, form, odd),
+                      half = draw(mixedWorld(), ao::LayerMode::secondHalf, form, odd);
         EXPECT_EQ(whole.thickness, half.thickness);
         EXPECT_EQ(half.second.width, (whole.second.width + 1) / 2);
         size_t different = 0, there = 0;
@@ -177,7 +186,8 @@ TEST_F(Layers, closedMeshesAreSolid) {
     cube.placement = glm::scale(glm::mat4(1.0f), glm::vec3(-1.0f, 1.0f, 1.0f));
     mirrored.add(cube);
     for (const scene::World& world : {oneWorld(turningCube()), mirrored, oneWorld(bendingBar())}) {
-        const Counts counts = count(draw(world, ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.7f; }));
+        const Counts counts =
+            count(draw(world, ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.time = 0.7f; }));
         EXPECT_GT(counts.covered, 2000u);
         EXPECT_GT(double(counts.thick), 0.98 * double(counts.covered));
     }
@@ -210,7 +220,8 @@ TEST_F(Layers, openMeshesAreSheets) {
     scene::Material both;
     both.doubleSided = true;
     scene::World world = oneWorld(with(wavingPatch(), both));
-    const Counts behind = count(draw(world, ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.camera.eye.z = -o.camera.eye.z; }));
+    const Counts behind = count(
+        draw(world, ao::LayerMode::second, render::LayerForm::best, [](render::FrameOptions& o) { o.camera.eye.z = -o.camera.eye.z; }));
     EXPECT_GT(behind.covered, 2000u);
     EXPECT_EQ(behind.sheet, behind.covered);
 }
@@ -231,7 +242,8 @@ TEST_F(Layers, materialsOverrideTheShell) {
         for (size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
         return model;
     };
-    const Counts unflipped = count(draw(oneWorld(wrong(scene::Shell::solid)))), flipped = count(draw(oneWorld(wrong(scene::Shell::flipped))));
+    const Counts unflipped = count(draw(oneWorld(wrong(scene::Shell::solid)))),
+                 flipped = count(draw(oneWorld(wrong(scene::Shell::flipped))));
     EXPECT_EQ(unflipped.sheet, unflipped.covered);
     EXPECT_GT(double(flipped.thick), 0.98 * double(flipped.covered));
 }
@@ -274,7 +286,8 @@ TEST_F(Layers, guardBandHasLayers) {
 
 TEST_F(Layers, otherMethodsDrawNoLayers) {
     const ao::Values hbao(*ao::findMethod("hbao"));
-    const Picture picture = draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, [&](render::FrameOptions& o) { o.method = &hbao; });
+    const Picture picture =
+        draw(mixedWorld(), ao::LayerMode::second, render::LayerForm::best, [&](render::FrameOptions& o) { o.method = &hbao; });
     EXPECT_TRUE(picture.thickness.bytes.empty());
 }
 

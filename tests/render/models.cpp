@@ -49,8 +49,9 @@ Primitive box(const glm::vec3& half, int along) {
         for (const float side : {1.0f, -1.0f}) {
             const glm::vec3 n = axes[axis] * side, t = axes[(axis + 1) % 3] * side, b = glm::cross(n, t);
             const auto quads = [&](const glm::vec3& d) { return std::abs(d.y) > 0.5f ? along : 1; };
-            addGrid(out, quads(t), quads(b), [&](float u, float v) { return half * (n + t * (2 * u - 1) + b * (2 * v - 1)); }, n, t,
-                    2.0f * glm::vec2(glm::length(half * t), glm::length(half * b)));
+            addGrid(
+                out, quads(t), quads(b), [&](float u, float v) { return half * (n + t * (2 * u - 1) + b * (2 * v - 1)); }, n, t,
+                2.0f * glm::vec2(glm::length(half * t), glm::length(half * b)));
         }
     return out;
 }
@@ -92,9 +93,7 @@ scene::Channel channel(int node, scene::AnimatedPath path, int components, std::
     return out;
 }
 
-void animate(scene::Model& model, std::vector<scene::Channel> channels) {
-    model.animations.push_back({"move", 1.0f, std::move(channels)});
-}
+void animate(scene::Model& model, std::vector<scene::Channel> channels) { model.animations.push_back({"move", 1.0f, std::move(channels)}); }
 
 std::vector<float> turn(const glm::vec3& axis, float angle) {
     const glm::quat q = glm::angleAxis(angle, glm::normalize(axis));
@@ -122,7 +121,7 @@ std::shared_ptr<scene::Model> turningCube() {
     model->roots = {1};
     model->order = {1, 0};
     animate(*model, {channel(0, scene::AnimatedPath::rotation, 4, {0, 1}, turn({0.3f, 1, 0.2f}, 2.4f)),
-                     channel(1, scene::AnimatedPath::translation, 3, {0, 1}, {-0.3f, 0, 0, 0.5f, 0.3f, -0.6f})});
+                        channel(1, scene::AnimatedPath::translation, 3, {0, 1}, {-0.3f, 0, 0, 0.5f, 0.3f, -0.6f})});
     return model;
 }
 

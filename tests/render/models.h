@@ -8,10 +8,10 @@
 
 namespace obscura::test {
 
-std::shared_ptr<scene::Model> turningCube();   // node animation: rotates and translates
-std::shared_ptr<scene::Model> bendingBar();    // skin of four joints in a row, each turning; morph targets as well
-std::shared_ptr<scene::Model> wavingPatch();   // three morph targets, one of weight 0
-std::shared_ptr<scene::Model> floorPlate();    // 6 m x 6 m at y = 0, at rest
+std::shared_ptr<scene::Model> turningCube();  // node animation: rotates and translates
+std::shared_ptr<scene::Model> bendingBar();   // skin of four joints in a row, each turning; morph targets as well
+std::shared_ptr<scene::Model> wavingPatch();  // three morph targets, one of weight 0
+std::shared_ptr<scene::Model> floorPlate();   // 6 m x 6 m at y = 0, at rest
 
 // Replaces the material of a model's first primitive.
 std::shared_ptr<scene::Model> with(std::shared_ptr<scene::Model> model, const scene::Material& material);

@@ -22,7 +22,8 @@ struct Projector {
     glm::mat4 clip;
     glm::vec2 size;
     Projector(const scene::Camera& camera, const Picture& p)
-        : clip(camera.projection({p.size.width, p.size.height}, {p.color.width, p.color.height}) * camera.view()), size(p.size.width, p.size.height) {}
+        : clip(camera.projection({p.size.width, p.size.height}, {p.color.width, p.color.height}) * camera.view()),
+          size(p.size.width, p.size.height) {}
     glm::vec3 operator()(const glm::vec3& world) const {  // px, px, linear depth
         const glm::vec4 c = clip * glm::vec4(world, 1.0f);
         return {(glm::vec2(c) / c.w * 0.5f + 0.5f) * size, c.w};
@@ -92,14 +93,16 @@ void compare(const Step& before, const Picture& then, const Step& after, const P
 
             const scene::PosedPrimitive& was = posedThen[size_t(seen.primitive)];
             glm::vec3 point(0.0f);
-            for (int i = 0; i < 3; ++i) point += seen.barycentric[i] * was.positions[was.primitive->indices[seen.triangle * 3 + uint32_t(i)]];
+            for (int i = 0; i < 3; ++i)
+                point += seen.barycentric[i] * was.positions[was.primitive->indices[seen.triangle * 3 + uint32_t(i)]];
             const glm::vec3 expected = projectThen(point);
             const glm::vec2 here(float(x) + 0.5f, float(y) + 0.5f), found = here + now.motionAt(x, y);
             errors.exact.push_back(glm::length(found - glm::vec2(expected)));
 
             // Was the point visible? The surface at the four texels around must be the same one, by depth.
             const glm::ivec2 at(glm::floor(found - 0.5f));
-            bool visible = at.x > int(gx) && at.y > int(gy) && at.x + 2 < int(then.size.width - gx) && at.y + 2 < int(then.size.height - gy);
+            bool visible =
+                at.x > int(gx) && at.y > int(gy) && at.x + 2 < int(then.size.width - gx) && at.y + 2 < int(then.size.height - gy);
             for (int k = 0; k < 4 && visible; ++k) {
                 const Seen& there = seenThen[size_t(at.y + k / 2) * then.size.width + size_t(at.x + k % 2)];
                 visible = there.primitive == seen.primitive && std::abs(there.depth - expected.z) < 0.02f * expected.z;
@@ -107,7 +110,8 @@ void compare(const Step& before, const Picture& then, const Step& after, const P
             if (!visible) continue;
             const glm::vec2 p = here - glm::vec2(gx, gy), q = found - glm::vec2(gx, gy);
             // Displacement between the images: least squares over the gradients of the channels.
-            const glm::vec3 dx = 0.5f * (now.colorAt(p.x + 1, p.y) - now.colorAt(p.x - 1, p.y)), dy = 0.5f * (now.colorAt(p.x, p.y + 1) - now.colorAt(p.x, p.y - 1));
+            const glm::vec3 dx = 0.5f * (now.colorAt(p.x + 1, p.y) - now.colorAt(p.x - 1, p.y)),
+                            dy = 0.5f * (now.colorAt(p.x, p.y + 1) - now.colorAt(p.x, p.y - 1));
             const glm::vec3 d = then.colorAt(q.x, q.y) - now.colorAt(p.x, p.y);
             const float xx = glm::dot(dx, dx), xy = glm::dot(dx, dy), yy = glm::dot(dy, dy), det = xx * yy - xy * xy;
             // Skip pixels whose pattern is too flat (below ten levels per px in some direction) or too fine.
@@ -173,7 +177,8 @@ TEST_F(Motion, cameraMotion) {
 
 TEST_F(Motion, allKindsTogether) {
     std::vector<Step> all = steps(worldOf({instanceOf(turningCube(), {-0.9f, 0.2f, 0.3f}), instanceOf(bendingBar(), {0.9f, 0, -0.5f}),
-                                           instanceOf(wavingPatch(), {0, 0.3f, -1.5f}), instanceOf(floorPlate(), {0, -0.8f, 0})}), 5);
+                                      instanceOf(wavingPatch(), {0, 0.3f, -1.5f}), instanceOf(floorPlate(), {0, -0.8f, 0})}),
+        5);
     for (size_t i = 0; i < all.size(); ++i) {
         all[i].camera.eye += glm::vec3(0.04f, 0.03f, -0.05f) * float(i);
         all[i].world.instances()[1].placement[3].x -= 0.05f * float(i);  // moved by the game
@@ -195,8 +200,16 @@ TEST_F(Motion, growingBuffersKeepPreviousPositions) {
     Picture alone, crowded;
     {
         RenderFixture other;
-        other.render(world, [&] { auto o = other.options(); o.time = 0.3f; return o; }());
-        alone = other.render(world, [&] { auto o = other.options(); o.time = options.time; return o; }());
+        other.render(world, [&] {
+            auto o = other.options();
+            o.time = 0.3f;
+            return o;
+        }());
+        alone = other.render(world, [&] {
+            auto o = other.options();
+            o.time = options.time;
+            return o;
+        }());
     }
     crowded = fixture.render(more, options);
     size_t compared = 0;
@@ -210,12 +223,14 @@ TEST_F(Motion, growingBuffersKeepPreviousPositions) {
 }
 
 bool allZero(const Picture& picture) {
-    return std::all_of(picture.motion.bytes.begin(), picture.motion.bytes.end(), [](std::byte b) { return (b & std::byte{0x7f}) == std::byte{0}; });
+    return std::all_of(
+        picture.motion.bytes.begin(), picture.motion.bytes.end(), [](std::byte b) { return (b & std::byte{0x7f}) == std::byte{0}; });
 }
 
 TEST_F(Motion, isExactlyZeroAtRest) {
     RenderFixture fixture;
-    const scene::World world = worldOf({instanceOf(turningCube()), instanceOf(bendingBar(), {1, 0, 0}), instanceOf(floorPlate(), {0, -0.8f, 0})});
+    const scene::World world =
+        worldOf({instanceOf(turningCube()), instanceOf(bendingBar(), {1, 0, 0}), instanceOf(floorPlate(), {0, -0.8f, 0})});
     render::FrameOptions options = fixture.options();
     options.time = 0.4f;
     for (int i = 0; i < 4; ++i) EXPECT_TRUE(allZero(fixture.render(world, options))) << "frame " << i;

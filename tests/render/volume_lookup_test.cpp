@@ -41,7 +41,8 @@ void main() {
 
 class VolumeLookupTest : public GpuTest {
 protected:
-    std::vector<uint32_t> ask(bool grid, const shared::Volume& block, std::span<const uint32_t> words, const std::vector<glm::vec4>& places) {
+    std::vector<uint32_t> ask(
+        bool grid, const shared::Volume& block, std::span<const uint32_t> words, const std::vector<glm::vec4>& places) {
         TestShaders files;  // in addition to the project's shaders
         std::string text = kLookups;
         if (grid) text.insert(text.find("#define"), "#define VOLUME_NANOVDB\n");
@@ -64,12 +65,20 @@ protected:
         graph.begin();
         gpu::Buffer back;
         const uint64_t bytes = places.size() * sizeof(uint32_t);
-        EXPECT_EQ(gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+        EXPECT_EQ(
+            gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
         const graph::BufferId answers = graph.buffer("answers", bytes);
-        graph.pass("look up", program).read(graph.upload("block", block)).read(graph.upload("bits", words.data(), words.size_bytes()))
-            .read(graph.upload("places", places.data(), places.size() * sizeof(glm::vec4))).write(answers).dispatch(uint32_t(places.size() + 15) / 16);
-        graph.pass("read back").use(answers, graph::Access::transferRead).use(graph.import("back", back, graph::Graph::Shared::written), graph::Access::transferWrite)
-            .keep().record([=, to = back.handle()](const graph::PassContext& c) {
+        graph.pass("look up", program)
+            .read(graph.upload("block", block))
+            .read(graph.upload("bits", words.data(), words.size_bytes()))
+            .read(graph.upload("places", places.data(), places.size() * sizeof(glm::vec4)))
+            .write(answers)
+            .dispatch(uint32_t(places.size() + 15) / 16);
+        graph.pass("read back")
+            .use(answers, graph::Access::transferRead)
+            .use(graph.import("back", back, graph::Graph::Shared::written), graph::Access::transferWrite)
+            .keep()
+            .record([=, to = back.handle()](const graph::PassContext& c) {
                 const VkBufferCopy copy{c.buffer(answers).offset, 0, bytes};
                 c.device.vk().CmdCopyBuffer(c.cmd, c.buffer(answers).buffer, to, 1, &copy);
             });
@@ -95,7 +104,8 @@ protected:
         gridBlock.shift = {uint32_t(origin.x), uint32_t(origin.y), uint32_t(origin.z), 0};
 
         std::vector<glm::vec4> places;  // every cell of the window, then random cells in and around it
-        for (int i = 0; i < 64 * 64 * 64; ++i) places.emplace_back(float(i / 4096) + 0.5f, float(i / 64 % 64) + 0.5f, float(i % 64) + 0.5f, 0.0f);
+        for (int i = 0; i < 64 * 64 * 64; ++i)
+            places.emplace_back(float(i / 4096) + 0.5f, float(i / 64 % 64) + 0.5f, float(i % 64) + 0.5f, 0.0f);
         std::mt19937 random(5);
         std::uniform_real_distribution<float> anywhere(0.0f, 63.99f), far(-5000.0f, 5000.0f);
         for (int i = 0; i < 20000; ++i) places.emplace_back(anywhere(random), anywhere(random), anywhere(random), 0.0f);
@@ -107,7 +117,8 @@ protected:
         size_t set = 0;
         for (size_t i = 0; i < places.size(); ++i) {
             const bool expected = cells.test(origin + glm::ivec3(glm::floor(glm::vec3(places[i]))));
-            ASSERT_EQ(grid[i], expected ? 1u : 0u) << "grid, place " << i << ": " << places[i].x << ' ' << places[i].y << ' ' << places[i].z;
+            ASSERT_EQ(grid[i], expected ? 1u : 0u)
+                << "grid, place " << i << ": " << places[i].x << ' ' << places[i].y << ' ' << places[i].z;
             if (i < within) {
                 ASSERT_EQ(bits[i], grid[i]) << "bits, place " << i;
             }

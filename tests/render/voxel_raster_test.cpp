@@ -32,7 +32,8 @@ protected:
         GpuTest::TearDown();
     }
 
-    std::vector<uint32_t> bits(const scene::World& world, float time, const render::Voxelization& how, const glm::vec3& eye = {0.1f, 0.9f, 3.0f}) {
+    std::vector<uint32_t> bits(
+        const scene::World& world, float time, const render::Voxelization& how, const glm::vec3& eye = {0.1f, 0.9f, 3.0f}) {
         const ao::Values values(*ao::findMethod("hybrid"));
         render::FrameOptions options;
         options.visible = {32, 24};
@@ -49,20 +50,27 @@ protected:
         if (!out.voxels) return {};
         std::vector<uint32_t> result(size_t(how.cells) * how.cells * how.cells / 32);
         gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(device(), result.size() * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back), gpu::Status::ok);
+        EXPECT_EQ(gpu::Buffer::create(device(), result.size() * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
+            gpu::Status::ok);
         const graph::BufferId to = m_graph->import("back", back, graph::Graph::Shared::written);
-        m_graph->pass("read back").use(out.voxels, graph::Access::transferRead).use(to, graph::Access::transferWrite).keep()
+        m_graph->pass("read back")
+            .use(out.voxels, graph::Access::transferRead)
+            .use(to, graph::Access::transferWrite)
+            .keep()
             .record([from = out.voxels, handle = back.handle()](const graph::PassContext& c) {
                 const graph::ExternalBuffer source = c.buffer(from);
                 const VkBufferCopy copy{source.offset, 0, source.bytes};
                 c.device.vk().CmdCopyBuffer(c.cmd, source.buffer, handle, 1, &copy);
             });
-        EXPECT_EQ(device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor->execute(*m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
+        EXPECT_EQ(
+            device().runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor->execute(*m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
         std::memcpy(result.data(), back.mapped(), result.size() * 4);
         return result;
     }
 
-    struct Difference { size_t set = 0, missing = 0, extra = 0; };
+    struct Difference {
+        size_t set = 0, missing = 0, extra = 0;
+    };
     Difference compare(const scene::World& world, float time, render::Voxelization how, const glm::vec3& eye = {0.1f, 0.9f, 3.0f}) {
         how.voxelizer = render::Voxelizer::openvdb;
         const std::vector<uint32_t> expected = bits(world, time, how, eye);
@@ -74,7 +82,8 @@ protected:
             d.missing += size_t(std::popcount(expected[i] & ~got[i]));
             d.extra += size_t(std::popcount(got[i] & ~expected[i]));
         }
-        fmt::print("{} cells a side{}: {} set, {} missing, {} extra\n", how.cells, how.shell == voxel::Shell::thin ? ", thin" : "", d.set, d.missing, d.extra);
+        fmt::print("{} cells a side{}: {} set, {} missing, {} extra\n", how.cells, how.shell == voxel::Shell::thin ? ", thin" : "", d.set,
+            d.missing, d.extra);
         return d;
     }
 
@@ -95,7 +104,8 @@ TEST_F(VoxelRasterTest, randomTrianglesSmallAndLarge) {
         for (const uint32_t cells : {64u, 256u}) {
             Soup soup = randomSoup(4000, 4.0f, 0.3f, 7);
             const Soup large = randomSoup(200, 4.0f, 9.0f, 8);
-            for (size_t i = 0; i < large.positions.size(); i += 3) soup.add(large.positions[i], large.positions[i + 1], large.positions[i + 2]);
+            for (size_t i = 0; i < large.positions.size(); i += 3)
+                soup.add(large.positions[i], large.positions[i + 1], large.positions[i + 2]);
             const Difference d = compare(worldOf(modelOf(soup)), 0.0f, {.shell = shell, .cells = cells});
             EXPECT_GT(d.set, 10000u);
             EXPECT_EQ(d.missing, 0u);
@@ -134,7 +144,7 @@ TEST_F(VoxelRasterTest, degenerateTrianglesAreHarmless) {
     soup.add({nan, 0, 0}, {1, 0, 0}, {0, 1, 0});
     soup.add({0, 0, 0}, {infinite, 0, 0}, {0, 1, 0});
     soup.add({0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f});  // a point
-    soup.add({-1, -1, -1}, {1, 1.3f, 0.9f}, {0, 0.15f, -0.05f});          // a line
+    soup.add({-1, -1, -1}, {1, 1.3f, 0.9f}, {0, 0.15f, -0.05f});           // a line
     const Difference d = compare(worldOf(modelOf(soup)), 0.0f, {.cells = 128, .cellSize = 0.05f});
     EXPECT_EQ(d.missing, 0u);
     EXPECT_LE(d.extra, d.set / 200);

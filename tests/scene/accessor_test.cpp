@@ -16,8 +16,8 @@ TEST(Accessor, SparseReplacesElements) {
     const int where = b.view(std::vector<uint16_t>{0, 2});
     const int values = b.view(std::vector<float>{5, 6, 7, 8, 9, 10});
     b.mesh({{"POSITION", b.accessor({{"bufferView", base}, {"componentType", 5126}, {"type", "VEC3"}, {"count", 3},
-                                     {"sparse", {{"count", 2}, {"indices", {{"bufferView", where}, {"componentType", 5123}}},
-                                                 {"values", {{"bufferView", values}}}}}})}});
+                             {"sparse", {{"count", 2}, {"indices", {{"bufferView", where}, {"componentType", 5123}}},
+                                            {"values", {{"bufferView", values}}}}}})}});
     const auto model = b.load();
     const Primitive& p = only(model);
     ASSERT_EQ(p.positions.size(), 3u);
@@ -31,8 +31,8 @@ TEST(Accessor, SparseWithoutBaseStartsFromZero) {
     const int where = b.view(std::vector<uint8_t>{1});
     const int values = b.view(std::vector<float>{1, 2, 3});
     b.mesh({{"POSITION", b.accessor({{"componentType", 5126}, {"type", "VEC3"}, {"count", 3},
-                                     {"sparse", {{"count", 1}, {"indices", {{"bufferView", where}, {"componentType", 5121}}},
-                                                 {"values", {{"bufferView", values}}}}}})}});
+                             {"sparse", {{"count", 1}, {"indices", {{"bufferView", where}, {"componentType", 5121}}},
+                                            {"values", {{"bufferView", values}}}}}})}});
     const auto model = b.load();
     EXPECT_EQ(only(model).positions[0], glm::vec3(0));
     EXPECT_EQ(only(model).positions[1], glm::vec3(1, 2, 3));
@@ -43,8 +43,8 @@ TEST(Accessor, SparseIndicesMustRise) {
     const int where = b.view(std::vector<uint16_t>{2, 1});
     const int values = b.view(std::vector<float>{1, 2, 3, 4, 5, 6});
     b.mesh({{"POSITION", b.accessor({{"componentType", 5126}, {"type", "VEC3"}, {"count", 3},
-                                     {"sparse", {{"count", 2}, {"indices", {{"bufferView", where}, {"componentType", 5123}}},
-                                                 {"values", {{"bufferView", values}}}}}})}});
+                             {"sparse", {{"count", 2}, {"indices", {{"bufferView", where}, {"componentType", 5123}}},
+                                            {"values", {{"bufferView", values}}}}}})}});
     EXPECT_TRUE(contains(b.error(), "/accessors/0/sparse/indices: index 1 at 1")) << b.error();
 }
 

@@ -17,13 +17,13 @@ void near(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-5f) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-std::shared_ptr<const Model> animated(const char* path, const char* interpolation, const std::vector<float>& times,
-                                      const std::vector<float>& values) {
+std::shared_ptr<const Model> animated(
+    const char* path, const char* interpolation, const std::vector<float>& times, const std::vector<float>& values) {
     GltfBuilder b;
     b.triangle();
     const int output = std::string(path) == "rotation" ? b.vec4(values) : b.vec3(values);
     b.json["animations"] = {{{"samplers", {{{"input", b.scalars(times)}, {"output", output}, {"interpolation", interpolation}}}},
-                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
     return b.load();
 }
 
@@ -55,8 +55,7 @@ TEST(Animation, LoopWrapsIntoTheDuration) {
 
 TEST(Animation, CubicSplineByHand) {
     // Keys 1 and 5 at times 0 and 2, out-tangent 2, in-tangent -1. At t = 1/2: 0.5*1 + 2*0.125*2 + 0.5*5 + 2*-0.125*-1.
-    const auto m = animated("translation", "CUBICSPLINE", {0, 2},
-                            {9, 9, 9, 1, 0, 0, 2, 0, 0, -1, 0, 0, 5, 0, 0, 9, 9, 9});
+    const auto m = animated("translation", "CUBICSPLINE", {0, 2}, {9, 9, 9, 1, 0, 0, 2, 0, 0, -1, 0, 0, 5, 0, 0, 9, 9, 9});
     const auto x = [&](float t) { return evaluate(*m, 0, t, false).world[0][3].x; };
     EXPECT_FLOAT_EQ(x(0.0f), 1.0f);
     EXPECT_FLOAT_EQ(x(1.0f), 0.5f + 0.5f + 2.5f + 0.25f);
@@ -83,7 +82,7 @@ TEST(Animation, NormalizedRotationKeys) {
     b.triangle();
     const int output = b.accessor(std::vector<int8_t>{0, 0, 0, 127, 0, 0, 127, 0}, "VEC4", 5120, 4, true);
     b.json["animations"] = {{{"samplers", {{{"input", b.scalars({0, 1})}, {"output", output}}}},
-                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
     near(glm::vec3(evaluate(*b.load(), 0, 1.0f, false).world[0][0]), {-1, 0, 0});
 }
 
@@ -91,7 +90,7 @@ TEST(Animation, TimesMustRise) {
     GltfBuilder b;
     b.triangle();
     b.json["animations"] = {{{"samplers", {{{"input", b.scalars({0, 1, 1})}, {"output", b.vec3({0, 0, 0, 0, 0, 0, 0, 0, 0})}}}},
-                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
     EXPECT_TRUE(contains(b.error(), "/animations/0/samplers/0/input: key 2 at 1 s")) << b.error();
     b.json["animations"][0]["channels"][0]["target"]["node"] = 3;
     EXPECT_TRUE(contains(b.error(), "/animations/0/channels/0/target/node: node 3 does not exist")) << b.error();
@@ -109,9 +108,8 @@ GltfBuilder arm() {
     b.json["nodes"].push_back({{"children", {2}}});
     b.json["nodes"].push_back({{"translation", {0, 1, 0}}, {"rotation", {0, 0, kHalf, kHalf}}});
     b.json["scenes"][0]["nodes"] = {0, 1};
-    b.json["skins"] = {{{"joints", {1, 2}},
-                        {"inverseBindMatrices", b.mat4({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
-                                                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1})}}};
+    b.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", b.mat4({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0,
+                                                                        1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1})}}};
     return b;
 }
 
@@ -133,7 +131,8 @@ TEST(Skinning, BlendsJointMatrices) {
 
 TEST(Skinning, EightInfluences) {
     GltfBuilder b = arm();
-    b.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_1"] = b.accessor(std::vector<uint16_t>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", 5123, 4);
+    b.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_1"] =
+        b.accessor(std::vector<uint16_t>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", 5123, 4);
     b.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_1"] = b.vec4({3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
     const auto model = b.load();
     const Primitive& primitive = model->meshes[0].primitives[0];
@@ -154,10 +153,10 @@ TEST(Morph, WeightsMoveVertices) {
     GltfBuilder b;
     Json& primitive = b.mesh({{"POSITION", b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}, {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})}});
     primitive["targets"] = {{{"POSITION", b.vec3({0, 0, 1, 0, 0, 0, 0, 0, 0})}, {"NORMAL", b.vec3({1, 0, 0, 0, 0, 0, 0, 0, 0})}},
-                            {{"POSITION", b.vec3({0, 2, 0, 0, 0, 0, 0, 0, 0})}}};
+        {{"POSITION", b.vec3({0, 2, 0, 0, 0, 0, 0, 0, 0})}}};
     b.json["meshes"][0]["weights"] = {0.5, 0};
     b.json["animations"] = {{{"samplers", {{{"input", b.scalars({0, 1})}, {"output", b.scalars({0, 0, 1, 0.5f})}}}},
-                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
     const auto model = b.load();
     std::vector<glm::vec3> positions, normals;
     deform(*model, 0, model->meshes[0].primitives[0], evaluate(*model, -1, 0.0f), positions, &normals);
@@ -174,8 +173,8 @@ TEST(Morph, CubicSplineWeights) {
     primitive["targets"] = {{{"POSITION", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})}}, {{"POSITION", b.vec3({1, 0, 0, 1, 0, 0, 1, 0, 0})}}};
     // Per key: two in-tangents, two values, two out-tangents.
     b.json["animations"] = {{{"samplers", {{{"input", b.scalars({0, 1})}, {"interpolation", "CUBICSPLINE"},
-                                            {"output", b.scalars({0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0})}}}},
-                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+                                              {"output", b.scalars({0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0})}}}},
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
     const auto model = b.load();
     const auto weights = evaluate(*model, 0, 0.5f, false).weights[0];
     EXPECT_FLOAT_EQ(weights[0], 0.125f * 1 + 0.5f);

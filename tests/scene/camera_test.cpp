@@ -79,7 +79,7 @@ TEST(Camera, FrameSeesTheBounds) {
 TEST(Camera, LensesArePlacedByNodes) {
     GltfBuilder b;
     b.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}},
-                         {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0.5}, {"zfar", 10}}}}};
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0.5}, {"zfar", 10}}}}};
     b.json["nodes"] = {{{"camera", 1}}, {{"camera", 0}, {"translation", {1, 2, 3}}, {"scale", {5, 5, 5}}}};
     b.json["scenes"] = Json::array({{{"nodes", {0, 1}}}});
     const auto model = b.load();
@@ -198,10 +198,13 @@ TEST_F(CameraFile, PathErrorsNameTheField) {
     EXPECT_TRUE(contains(pathError(R"({"speed":1,"keys":[]})"), "unknown field \"speed\""));
     EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1],"roll":3}]})"), "/keys/0: unknown field \"roll\""));
     EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":1,"eye":[0,0,0],"target":[0,0,1]},{"time":1,"eye":[1,0,0],"target":[0,0,1]}]})"),
-                         "/keys/1/time: 1 s does not come after"));
-    EXPECT_TRUE(contains(pathError(R"({"duration":1,"loop":false,"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"),
-                         "/duration: is 1 s, but the keys take 2 s"));
-    EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"), "a loop's last key"));
+        "/keys/1/time: 1 s does not come after"));
+    EXPECT_TRUE(contains(
+        pathError(
+            R"({"duration":1,"loop":false,"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"),
+        "/duration: is 1 s, but the keys take 2 s"));
+    EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"),
+        "a loop's last key"));
     EXPECT_TRUE(contains(pathError("[]"), "must be an object"));
 }
 

@@ -9,8 +9,8 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <nlohmann/json.hpp>
 
 #include "scene/gltf.h"
 #include "scene/world.h"
@@ -89,10 +89,10 @@ TEST(Content, EveryConformanceModelLoads) {
         {"needs the extension KHR_materials_pbrSpecularGlossiness", 15},  // superseded by metallic-roughness, not in our list
         {"needs the extension KHR_techniques_webgl", 3},                  // shaders of glTF 1
         {"needs the extension KHR_materials_transmission", 1},
-        {"needs the extension KHR_meshopt_compression", 1},     // newer than the distribution's meshoptimizer
-        {"needs the extension EXT_texture_webp", 1},            // stb reads no WebP
+        {"needs the extension KHR_meshopt_compression", 1},          // newer than the distribution's meshoptimizer
+        {"needs the extension EXT_texture_webp", 1},                 // stb reads no WebP
         {"needs the extension FAKE_materials_quantumRendering", 1},  // made to be refused
-        {"/asset/minVersion: needs glTF 2.1", 1},               // made to be refused
+        {"/asset/minVersion: needs glTF 2.1", 1},                    // made to be refused
     };
     std::map<std::string, int> refused;
     int loaded = 0;
@@ -102,7 +102,8 @@ TEST(Content, EveryConformanceModelLoads) {
             ++loaded;
             continue;
         }
-        const auto reason = std::find_if(std::begin(reasons), std::end(reasons), [&](const Reason& r) { return error.find(r.text) != error.npos; });
+        const auto reason =
+            std::find_if(std::begin(reasons), std::end(reasons), [&](const Reason& r) { return error.find(r.text) != error.npos; });
         if (reason == std::end(reasons)) ADD_FAILURE() << error;
         else EXPECT_LE(++refused[reason->text], reason->most) << error;
     }
@@ -119,17 +120,16 @@ TEST(Content, EveryInvalidModelGivesAModelOrOneLine) {
     const fs::path folder = content() / "invalid";
     NEEDS(folder);
     // Validator messages that do not affect drawing: a model with only these may load.
-    const std::set<std::string> harmless = {
-        "EMPTY_ENTITY",                                     // [] in place of an omitted property
-        "ACCESSOR_MIN_MISMATCH", "ACCESSOR_MAX_MISMATCH",   // bounds are not used, positions are measured
-        "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND",
-        "ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS", "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
-        "ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS",  // one spline key holds its value
-        "ACCESSOR_INVALID_FLOAT",                             // where no mesh uses the accessor
+    const std::set<std::string> harmless = {"EMPTY_ENTITY",  // [] in place of an omitted property
+        "ACCESSOR_MIN_MISMATCH", "ACCESSOR_MAX_MISMATCH",    // bounds are not used, positions are measured
+        "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND", "ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS",
+        "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
+        "ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS",                            // one spline key holds its value
+        "ACCESSOR_INVALID_FLOAT",                                                       // where no mesh uses the accessor
         "BUFFER_DATA_URI_MIME_TYPE_INVALID", "IMAGE_MIME_TYPE_INVALID", "INVALID_URI",  // the type is detected from the data
         "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE", "BUFFER_VIEW_INVALID_BYTE_STRIDE",           // of single elements and indices
-        "ONE_OF_MISMATCH",                                    // a camera with both lenses, one of them named
-        "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT",    // an application's own attribute
+        "ONE_OF_MISMATCH",                                                              // a camera with both lenses, one of them named
+        "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT",                              // an application's own attribute
         "ACCESSOR_NON_CLAMPED", "ACCESSOR_INVALID_SIGN", "ACCESSOR_VECTOR3_NON_UNIT", "ROTATION_NON_UNIT",  // repaired
         "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION",                                      // repaired
         "NODE_MATRIX_NON_TRS", "NODE_SKIN_WITH_NON_SKINNED_MESH",                                           // drawn as they are
@@ -211,7 +211,8 @@ TEST(Content, CompressedModelsEqualTheOriginals) {
     NEEDS(folder);
     const fs::path khronos = folder / "khronos" / "Models";
     for (const char* name : {"Box", "CesiumMilkTruck", "RiggedSimple", "MorphPrimitivesTest", "CesiumMan"})
-        expectSame(khronos / name / "glTF" / (std::string(name) + ".gltf"), khronos / name / "glTF-Draco" / (std::string(name) + ".gltf"), 0.01f);
+        expectSame(
+            khronos / name / "glTF" / (std::string(name) + ".gltf"), khronos / name / "glTF-Draco" / (std::string(name) + ".gltf"), 0.01f);
     expectSame(khronos / "Duck" / "glTF" / "Duck.gltf", khronos / "Duck" / "glTF-Draco" / "Duck.gltf", 0.02f);
     const fs::path other = folder / "extras" / "gltf-transform" / "packages" / "extensions" / "test" / "in";
     expectSame(khronos / "Box" / "glTF" / "Box.gltf", other / "BoxDraco.gltf", 0.01f);

@@ -46,7 +46,8 @@ TEST(Document, DeepNestingIsRefused) {
 TEST(Document, NewlinesInNamesAreEscaped) {
     GltfBuilder b;
     b.json["extensionsRequired"] = {"EVIL\nextension"};
-    EXPECT_EQ(b.error(), "built.gltf: /extensionsRequired/0: needs the extension EVIL?extension, which is not supported; export without it");
+    EXPECT_EQ(
+        b.error(), "built.gltf: /extensionsRequired/0: needs the extension EVIL?extension, which is not supported; export without it");
 }
 
 TEST(Document, VersionsAreChecked) {
@@ -72,7 +73,8 @@ TEST(Document, NodeLoopsAndSharedChildren) {
     const Json leaf = Json::object();
     EXPECT_TRUE(contains(withNodes(Json::array({{{"children", {0}}}}), Json::array()), "/nodes/0: is its own ancestor"));
     EXPECT_TRUE(contains(withNodes(Json::array({leaf, {{"children", {2}}}, {{"children", {1}}}})), "is its own ancestor"));
-    EXPECT_TRUE(contains(withNodes(Json::array({{{"children", {2}}}, {{"children", {2}}}, leaf})), "/nodes/1/children/0: node 2 already is a child"));
+    EXPECT_TRUE(contains(
+        withNodes(Json::array({{{"children", {2}}}, {{"children", {2}}}, leaf})), "/nodes/1/children/0: node 2 already is a child"));
     EXPECT_TRUE(contains(withNodes(Json::array({{{"children", {1}}}, leaf}), Json::array({1})), "/scenes/0/nodes/0: node 1 is not a root"));
     EXPECT_TRUE(contains(withNodes(Json::array({{{"mesh", 0}}})), "/nodes/0/mesh: mesh 0 does not exist"));
 }
@@ -101,11 +103,12 @@ TEST(Document, WrongTypesAreNamed) {
     };
     for (const Json& wrong : {Json(nullptr), Json("text"), Json(-1), Json(1.5), Json::array({"x"}), Json::object({{"x", 1}})}) {
         for (const char* pointer : {"/accessors/0/bufferView", "/accessors/0/count", "/accessors/0/componentType", "/bufferViews/0/buffer",
-                                    "/bufferViews/0/byteLength", "/nodes/0/mesh", "/meshes/0/primitives/0/attributes/POSITION"})
+                 "/bufferViews/0/byteLength", "/nodes/0/mesh", "/meshes/0/primitives/0/attributes/POSITION"})
             errorWith(pointer, wrong);
     }
     for (const Json& wrong : {Json("text"), Json(3), Json::object()})
-        for (const char* pointer : {"/nodes", "/meshes", "/accessors", "/bufferViews", "/scenes", "/meshes/0/primitives"}) errorWith(pointer, wrong);
+        for (const char* pointer : {"/nodes", "/meshes", "/accessors", "/bufferViews", "/scenes", "/meshes/0/primitives"})
+            errorWith(pointer, wrong);
     errorWith("/nodes/0/rotation", Json::array({0, 0, 0, 0}));
     errorWith("/nodes/0/scale", Json::array({1, 2}));
     errorWith("/nodes/0/translation", Json::array({1, 2, 1e300}));

@@ -47,7 +47,7 @@ TEST_F(Files, BesideAndBelowAreRead) {
 
 TEST_F(Files, NothingOutsideIsRead) {
     for (const std::string& uri : {std::string("../outside.bin"), std::string("sub/../../outside.bin"), std::string("%2e%2e/outside.bin"),
-                                   std::string("sub%2f..%2f..%2foutside.bin")})
+             std::string("sub%2f..%2f..%2foutside.bin")})
         EXPECT_TRUE(contains(errorOf(uri), "leaves the model's folder")) << errorOf(uri);
     EXPECT_TRUE(contains(errorOf((m_root / "model/inside.bin").string()), "absolute path"));
     EXPECT_TRUE(contains(errorOf("/etc/passwd"), "absolute path"));

@@ -35,7 +35,8 @@ public:
     }
     template <class T>
     int accessor(const std::vector<T>& values, const char* type, int componentType, int components, bool normalized = false) {
-        Json fields{{"bufferView", view(values)}, {"componentType", componentType}, {"type", type}, {"count", values.size() / size_t(components)}};
+        Json fields{
+            {"bufferView", view(values)}, {"componentType", componentType}, {"type", type}, {"count", values.size() / size_t(components)}};
         if (normalized) fields["normalized"] = true;
         return accessor(fields);
     }

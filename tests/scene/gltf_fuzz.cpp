@@ -53,7 +53,8 @@ void mutateJson(Json& json, std::mt19937& random) {
         std::string& uri = at->get_ref<std::string&>();
         const size_t start = uri.find(',') + 1;
         static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-        for (size_t i = 0; start < uri.size() && i <= random() % 4; ++i) uri[start + random() % (uri.size() - start)] = kDigits[random() % 64];
+        for (size_t i = 0; start < uri.size() && i <= random() % 4; ++i)
+            uri[start + random() % (uri.size() - start)] = kDigits[random() % 64];
         return;
     }
     if (parent != nullptr && parent->is_array() && random() % 6 == 0) {

@@ -16,7 +16,8 @@ constexpr const char* kPixel =
 
 GltfBuilder quad(int mode) {
     GltfBuilder b;
-    Json& p = b.mesh({{"POSITION", b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0})}, {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}});
+    Json& p =
+        b.mesh({{"POSITION", b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0})}, {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}});
     p["mode"] = mode;
     return b;
 }
@@ -62,7 +63,7 @@ TEST(Mesh, TangentsFollowTheTexture) {
     GltfBuilder b;
     // u along +y, v along -x: cross(n, t) = (-1,0,0) is along v, so w is -1, since green points against v.
     b.mesh({{"POSITION", b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}, {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})},
-            {"TEXCOORD_0", b.accessor(std::vector<float>{0, 1, 0, 0, 1, 1}, "VEC2", 5126, 2)}});
+        {"TEXCOORD_0", b.accessor(std::vector<float>{0, 1, 0, 0, 1, 1}, "VEC2", 5126, 2)}});
     const auto model = b.load();
     for (const glm::vec4& t : only(model).tangents) {
         EXPECT_NEAR(glm::length(glm::vec3(t) - glm::vec3(0, 1, 0)), 0.0f, 1e-6f);
@@ -107,12 +108,13 @@ TEST(Material, EveryFieldIsLoaded) {
     b.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
     b.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_materials_unlit"};
     b.json["materials"] = {{{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}, {"doubleSided", true}, {"emissiveFactor", {0.5, 0, 1}},
-                            {"normalTexture", {{"index", 1}, {"scale", 2}, {"texCoord", 1}}},
-                            {"occlusionTexture", {{"index", 1}, {"strength", 0.5}}},
-                            {"pbrMetallicRoughness", {{"metallicFactor", 0.1}, {"roughnessFactor", 0.2}, {"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
-                             {"baseColorTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform",
-                               {{"offset", {1, 2}}, {"scale", {3, 4}}, {"rotation", 0.5}, {"texCoord", 1}}}}}}}}},
-                            {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}, {"KHR_materials_unlit", Json::object()}}}}};
+        {"normalTexture", {{"index", 1}, {"scale", 2}, {"texCoord", 1}}}, {"occlusionTexture", {{"index", 1}, {"strength", 0.5}}},
+        {"pbrMetallicRoughness",
+            {{"metallicFactor", 0.1}, {"roughnessFactor", 0.2}, {"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                {"baseColorTexture",
+                    {{"index", 0}, {"extensions", {{"KHR_texture_transform",
+                                                      {{"offset", {1, 2}}, {"scale", {3, 4}}, {"rotation", 0.5}, {"texCoord", 1}}}}}}}}},
+        {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}, {"KHR_materials_unlit", Json::object()}}}}};
     const auto model = b.load();
     const Material& m = model->materials[0];
     EXPECT_EQ(m.alphaMode, AlphaMode::mask);

@@ -59,7 +59,7 @@ TEST(World, InstancesHaveTheirOwnIdsTimesAndPlacements) {
     b.json["nodes"].push_back({{"mesh", 0}});
     b.json["scenes"][0]["nodes"] = {0, 1};
     b.json["animations"] = {{{"samplers", {{{"input", b.scalars({0, 2})}, {"output", b.vec3({0, 0, 0, 2, 0, 0})}}}},
-                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
     const auto model = b.load();
     World world;
     const uint32_t first = world.add({model});
@@ -92,7 +92,7 @@ TEST(World, AnimationMovesDescendants) {
     b.json["nodes"] = {{{"mesh", 0}}, {{"children", {0}}}, Json::object()};
     b.json["scenes"][0]["nodes"] = {1, 2};
     b.json["animations"] = {{{"samplers", {{{"input", b.scalars({0})}, {"output", b.vec3({0, 0, 0})}}}},
-                             {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "scale"}}}}}}}};
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "scale"}}}}}}}};
     EXPECT_EQ(animatedNodes(*b.load(), 0), (std::vector<bool>{true, true, false}));
     EXPECT_EQ(animatedNodes(*b.load(), -1), (std::vector<bool>{false, false, false}));
 }

@@ -11,7 +11,7 @@
 namespace obscura::test {
 
 enum Layering { kOne, kTwo, kFour, kEight, kUniform16, kUniform64 };  // choices of the parameter `layers`
-enum TableSize { kFull, kHalf, kQuarter };                             // choices of the parameter `tables`
+enum TableSize { kFull, kHalf, kQuarter };                            // choices of the parameter `tables`
 enum Estimator { kTables, kPoints, kLines };
 
 class StatisticalTest : public MethodTest {
@@ -41,10 +41,13 @@ protected:
         m_shaders.add(ao::shaders());
         ASSERT_EQ(ao::Prepare::create(m_device, m_shaders, m_prepare), ao::Status::ok);
         ASSERT_EQ(ao::StatisticalTables::create(m_device, m_shaders, m_tables), ao::Status::ok);
-        program("read.comp", "layout(local_size_x = 64) in;\n"
-            "layout(binding = 0, std430) readonly buffer From { uint from[]; };\nlayout(binding = 1, std430) writeonly buffer To { uint to[]; };\n"
+        program("read.comp",
+            "layout(local_size_x = 64) in;\n"
+            "layout(binding = 0, std430) readonly buffer From { uint from[]; };\nlayout(binding = 1, std430) writeonly buffer To { uint "
+            "to[]; };\n"
             "layout(push_constant) uniform Constants { uint count; };\n"
-            "void main() { for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) to[i] = from[i]; }\n", {}, m_read);
+            "void main() { for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) to[i] = from[i]; }\n",
+            {}, m_read);
         program("windows.comp", R"(#include "ao/statistical/fixed_point.h"
 #include "ao/statistical/window.glsl"
 #include "graph/executor.h"
@@ -69,7 +72,8 @@ void main() {
     float perMetre = unitsPerMetre(view, box, extent);
     units = perMetre;
     windows[p.y * view.visible.x + p.x] = vec4(sum.xyz / perMetre / sum.w - eyePosition(view, pixel, z), sum.w);
-})", {{0, 1}}, m_windows);
+})",
+            {{0, 1}}, m_windows);
     }
 
     // Compiles a shader that may include the project's shaders.
@@ -88,7 +92,8 @@ void main() {
 
     gpu::Buffer back(uint64_t bytes) {
         gpu::Buffer result;
-        EXPECT_EQ(gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback, "back", result), gpu::Status::ok);
+        EXPECT_EQ(gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback, "back", result),
+            gpu::Status::ok);
         return result;
     }
 
@@ -114,18 +119,32 @@ void main() {
         const auto read = [&](graph::BufferId from, uint64_t bytes) {
             gpu::Buffer to = back(bytes);
             const uint32_t count = uint32_t(bytes / 4);
-            m_graph.pass("read", m_read).read(from).write(m_graph.import("back", to, graph::Graph::Shared::written)).constants(count).dispatch(64 * 256);
+            m_graph.pass("read", m_read)
+                .read(from)
+                .write(m_graph.import("back", to, graph::Graph::Shared::written))
+                .constants(count)
+                .dispatch(64 * 256);
             return to;
         };
         const uint64_t texels = uint64_t(made.size.x) * made.size.y, pixels = uint64_t(view.visible.x) * view.visible.y;
-        const gpu::Buffer extent = read(made.extent, 16), texel = read(made.texels, texels * 16), root = read(made.root, ao::SummedArea::bytes(made.size, 1));
+        const gpu::Buffer extent = read(made.extent, 16), texel = read(made.texels, texels * 16),
+                          root = read(made.root, ao::SummedArea::bytes(made.size, 1));
         gpu::Buffer code, level[3], windows = back(pixels * 16), units = back(4);
         if (levels > 0) code = read(made.codes, texels * 4);
         for (uint32_t k = 0; k < levels; ++k) level[k] = read(made.levels[k], ao::SummedArea::bytes(made.size, 1u << k));
-        const struct { shared::Box box; shared::uvec2 size; } constants{made.box, made.size};
-        m_graph.pass("windows", m_windows).read(inputs.viewBlock).read(inputs.depth).read(made.extent).read(made.root)
-            .write(m_graph.import("windows", windows, graph::Graph::Shared::written)).write(m_graph.import("units", units, graph::Graph::Shared::written))
-            .constants(constants).dispatch(view.visible.x, view.visible.y);
+        const struct {
+            shared::Box box;
+            shared::uvec2 size;
+        } constants{made.box, made.size};
+        m_graph.pass("windows", m_windows)
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(made.extent)
+            .read(made.root)
+            .write(m_graph.import("windows", windows, graph::Graph::Shared::written))
+            .write(m_graph.import("units", units, graph::Graph::Shared::written))
+            .constants(constants)
+            .dispatch(view.visible.x, view.visible.y);
         gpu::Status status = gpu::Status::ok;
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);

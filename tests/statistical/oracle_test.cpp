@@ -8,7 +8,9 @@ namespace {
 class StatisticalOracle : public OracleTest {
 protected:
     StatisticalOracle() : OracleTest("statistical") {}
-    float error(const std::string& name, const ao::Values& values) { return measure(name, values, "quadratic:1", "world.quadratic_1").raw.eA; }
+    float error(const std::string& name, const ao::Values& values) {
+        return measure(name, values, "quadratic:1", "world.quadratic_1").raw.eA;
+    }
 };
 
 TEST_F(StatisticalOracle, cornerErrorIsBelowTheLimit) { EXPECT_LE(error("corner", values({}, "quality")), 0.020f); }
@@ -21,7 +23,8 @@ TEST_F(StatisticalOracle, fourAdaptiveLayersMatch64Uniform) {
 }
 
 TEST_F(StatisticalOracle, everyCostlierSettingReducesTheError) {
-    const float quality = error("atrium", values({}, "quality")), half = error("atrium", values({})), paper = error("atrium", values({}, "paper"));
+    const float quality = error("atrium", values({}, "quality")), half = error("atrium", values({})),
+                paper = error("atrium", values({}, "paper"));
     EXPECT_LT(quality, half);
     EXPECT_LT(quality, paper);
     EXPECT_LT(half, error("atrium", values({}, "paper_half")));

@@ -14,7 +14,8 @@ truth::CapturedFrame frameOfRecord() {
     if (const char* named = std::getenv("OBSCURA_FRAME"); named && *named) return truth::readCapture(named);
     const char* folder = std::getenv("OBSCURA_ORACLE");
     const fs::path stem = (folder && *folder ? fs::path(folder) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle") / "sponza_a";
-    if (!fs::exists(stem.string() + ".json")) skip("no " + stem.string() + ".json; set OBSCURA_ORACLE to the stored references or OBSCURA_FRAME to a captured frame");
+    if (!fs::exists(stem.string() + ".json"))
+        skip("no " + stem.string() + ".json; set OBSCURA_ORACLE to the stored references or OBSCURA_FRAME to a captured frame");
     return truth::readCapture(stem);
 }
 
@@ -33,7 +34,8 @@ TEST_F(TablesTest, windowedHeightsAreExactToHalfAMillimetre) {
     const uint32_t w = room.width + 1;
     const auto position = [&](uint32_t x, uint32_t y) {
         const double z = room.depth[size_t(y) * room.width + x];
-        return glm::dvec3((x + 0.5) * view.unproject.x + view.unproject.z, (y + 0.5) * view.unproject.y + view.unproject.w, -1.0) * glm::dvec3(z, z, z);
+        return glm::dvec3((x + 0.5) * view.unproject.x + view.unproject.z, (y + 0.5) * view.unproject.y + view.unproject.w, -1.0) *
+               glm::dvec3(z, z, z);
     };
     std::vector<glm::dvec4> table(size_t(w) * (room.height + 1), glm::dvec4(0.0));
     for (uint32_t y = 0; y < room.height; ++y)
@@ -59,10 +61,12 @@ TEST_F(TablesTest, windowedHeightsAreExactToHalfAMillimetre) {
                     const uint32_t i = std::min(uint32_t(u), room.width - 1), j = std::min(uint32_t(v), room.height - 1);
                     const double a = double(u) - i, b = double(v) - j;
                     const size_t at = size_t(j) * w + i;
-                    return (table[at] * (1.0 - a) + table[at + 1] * a) * (1.0 - b) + (table[at + w] * (1.0 - a) + table[at + w + 1] * a) * b;
+                    return (table[at] * (1.0 - a) + table[at + 1] * a) * (1.0 - b) +
+                           (table[at + w] * (1.0 - a) + table[at + w + 1] * a) * b;
                 };
                 const float u = float(px) + 0.5f, v = float(py) + 0.5f;
-                const glm::dvec4 window = sample(u + reach, v + reach) - sample(u - reach, v + reach) - sample(u + reach, v - reach) + sample(u - reach, v - reach);
+                const glm::dvec4 window = sample(u + reach, v + reach) - sample(u - reach, v + reach) - sample(u + reach, v - reach) +
+                                          sample(u - reach, v - reach);
                 const glm::dvec3 exact = glm::dvec3(window) / window.w - position(px, py), n = captured.normals[captured.index(px, py)];
                 const auto& got = t.windows[size_t(y) * captured.visible().x + x];
                 const double error = std::abs(glm::dot(glm::dvec3(got[0], got[1], got[2]) - exact, n));
@@ -70,8 +74,9 @@ TEST_F(TablesTest, windowedHeightsAreExactToHalfAMillimetre) {
                 sum += error;
                 ++count;
             }
-        printf("%ux%u, r %.2f m: height error %.3f mm mean, %.3f mm maximum; 1/%g m, depths %.2f to %.2f m\n", captured.visible().x, captured.visible().y,
-               double(half), 1e3 * sum / double(count), 1e3 * most, double(t.units), double(t.nearest), double(t.furthest));
+        printf("%ux%u, r %.2f m: height error %.3f mm mean, %.3f mm maximum; 1/%g m, depths %.2f to %.2f m\n", captured.visible().x,
+            captured.visible().y, double(half), 1e3 * sum / double(count), 1e3 * most, double(t.units), double(t.nearest),
+            double(t.furthest));
         EXPECT_LE(most, 0.5e-3) << half;
     }
 }

@@ -41,26 +41,32 @@ TEST_F(TablesTest, everyLayerIsTheExactSumOfItsTexels) {
         const Tables t = tables(room, {0.6f, 1.2f, 20.0f, side}, 3);
         ASSERT_EQ(t.size.x, (131 + side - 1) / side);
         // Built layers, and layers that follow as differences: code, mask, table minus tables.
-        struct Sum { const std::vector<Texel>* table; uint32_t layers, layer; };
+        struct Sum {
+            const std::vector<Texel>* table;
+            uint32_t layers, layer;
+        };
         const Sum s0{&t.root, 1, 0}, s10{&t.levels[0], 1, 0}, s20{&t.levels[1], 2, 0}, s22{&t.levels[1], 2, 1};
         const Sum s30{&t.levels[2], 4, 0}, s32{&t.levels[2], 4, 1}, s34{&t.levels[2], 4, 2}, s36{&t.levels[2], 4, 3};
-        const struct { uint32_t mask, code; std::vector<Sum> plus, minus; } layers[] = {
-            {0, 0, {s0}, {}},
-            {1, 1, {s10}, {}}, {1, 0, {s0}, {s10}},
-            {3, 3, {s20}, {}}, {3, 1, {s10}, {s20}}, {3, 2, {s22}, {}}, {3, 0, {s0}, {s10, s22}},
-            {7, 7, {s30}, {}}, {7, 3, {s20}, {s30}}, {7, 5, {s32}, {}}, {7, 1, {s10}, {s20, s32}},
+        const struct {
+            uint32_t mask, code;
+            std::vector<Sum> plus, minus;
+        } layers[] = {{0, 0, {s0}, {}}, {1, 1, {s10}, {}}, {1, 0, {s0}, {s10}}, {3, 3, {s20}, {}}, {3, 1, {s10}, {s20}}, {3, 2, {s22}, {}},
+            {3, 0, {s0}, {s10, s22}}, {7, 7, {s30}, {}}, {7, 3, {s20}, {s30}}, {7, 5, {s32}, {}}, {7, 1, {s10}, {s20, s32}},
             {7, 6, {s34}, {}}, {7, 2, {s22}, {s34}}, {7, 4, {s36}, {}}, {7, 0, {s0}, {s10, s22, s36}}};
         for (const auto& layer : layers) {
             size_t members = 0;
             const auto exact = tableOf(t.texels, t.size, [&](size_t i) { return (t.codes[i] & layer.mask) == layer.code; });
             for (const uint32_t code : t.codes) members += (code & layer.mask) == layer.code;
-            if (side == 1) { EXPECT_GT(members, 0u) << "layer " << layer.code << " of mask " << layer.mask << " is empty"; }
+            if (side == 1) {
+                EXPECT_GT(members, 0u) << "layer " << layer.code << " of mask " << layer.mask << " is empty";
+            }
             for (size_t i = 0; i < exact.size(); ++i)
                 for (int c = 0; c < 4; ++c) {
                     uint32_t sum = 0;
                     for (const Sum& s : layer.plus) sum += (*s.table)[i * s.layers + s.layer][c];
                     for (const Sum& s : layer.minus) sum -= (*s.table)[i * s.layers + s.layer][c];
-                    ASSERT_EQ(sum, uint32_t(exact[i][c])) << "layer " << layer.code << " of mask " << layer.mask << ", entry " << i << ", channel " << c;
+                    ASSERT_EQ(sum, uint32_t(exact[i][c]))
+                        << "layer " << layer.code << " of mask " << layer.mask << ", entry " << i << ", channel " << c;
                 }
         }
     }
@@ -83,8 +89,10 @@ TEST_F(TablesTest, noWindowOverflows) {
             for (uint32_t x = 0; x + window <= t.size.x; ++x)
                 for (int c = 0; c < 3; ++c) {
                     const auto at = [&](const auto& table, uint32_t px, uint32_t py) { return table[size_t(py) * w + px][c]; };
-                    const int64_t sum = at(exact, x + window, y + window) - at(exact, x, y + window) - at(exact, x + window, y) + at(exact, x, y);
-                    const uint32_t modular = at(t.root, x + window, y + window) - at(t.root, x, y + window) - at(t.root, x + window, y) + at(t.root, x, y);
+                    const int64_t sum =
+                        at(exact, x + window, y + window) - at(exact, x, y + window) - at(exact, x + window, y) + at(exact, x, y);
+                    const uint32_t modular =
+                        at(t.root, x + window, y + window) - at(t.root, x, y + window) - at(t.root, x + window, y) + at(t.root, x, y);
                     ASSERT_EQ(sum, int32_t(modular));
                     largest = std::max(largest, std::abs(sum));
                 }
@@ -137,7 +145,9 @@ TEST_F(TablesTest, windowsOfAConstantDepthAreExact) {
 }
 
 class Tilted : public TablesTest, public testing::WithParamInterface<std::array<float, 3>> {};
-INSTANTIATE_TEST_SUITE_P(Tables, Tilted, testing::Values(std::array{0.0f, 1.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{-0.7f, 0.1f, 0.7f}));
+INSTANTIATE_TEST_SUITE_P(Tables, Tilted,
+    testing::Values(
+        std::array{0.0f, 1.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{-0.7f, 0.1f, 0.7f}));
 
 TEST_P(Tilted, meanHeightOverAPlaneIsZero) {
     const Room room = plane(GetParam(), 20.0f);
@@ -155,8 +165,12 @@ TEST_P(Tilted, meanHeightOverAPlaneIsZero) {
 
 TEST_F(TablesTest, psiRisesToOneAndFallsFourTimesAsFast) {
     gpu::Program psi;
-    program("psi.comp", "#include \"ao/statistical/window.glsl\"\nlayout(local_size_x = 1) in;\nlayout(binding = 0, std430) writeonly buffer Out { vec4 to[]; };\n"
-        "void main() { to[0] = psi(vec4(-0.1, 0.0, 0.5, 1.0), 4.0); to[1] = psi(vec4(1.125, 1.25, 2.0, 0.25), 4.0); to[2] = psi(vec4(1.5, 2.0, 2.5, -9.0), 1.0); }\n", {}, psi);
+    program("psi.comp",
+        "#include \"ao/statistical/window.glsl\"\nlayout(local_size_x = 1) in;\nlayout(binding = 0, std430) writeonly buffer Out { vec4 "
+        "to[]; };\n"
+        "void main() { to[0] = psi(vec4(-0.1, 0.0, 0.5, 1.0), 4.0); to[1] = psi(vec4(1.125, 1.25, 2.0, 0.25), 4.0); to[2] = psi(vec4(1.5, "
+        "2.0, 2.5, -9.0), 1.0); }\n",
+        {}, psi);
     const gpu::Buffer to = back(48);
     m_device.nextFrame();
     m_graph.begin();

@@ -40,21 +40,24 @@ protected:
 
 TEST_F(Hall, matchesTheIndependentImplementation) {
     const Picture picture = run(values({{"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1}, {"largest", 0.25f}}, "quality"));
-    for (const auto& [y, expected] : {std::pair{119u, 0.1216}, {120u, 0.1097}, {121u, 0.0987}, {123u, 0.0796}, {117u, 0.1242}, {114u, 0.1531}, {109u, 0.0673}})
+    for (const auto& [y, expected] :
+        {std::pair{119u, 0.1216}, {120u, 0.1097}, {121u, 0.0987}, {123u, 0.0796}, {117u, 0.1242}, {114u, 0.1531}, {109u, 0.0673}})
         EXPECT_NEAR(row(picture, y), expected, 5e-4) << "row " << y;
 }
 
 TEST_F(Hall, matchesWithoutQuadrantsInASmallBox) {
     const Changes small = {{"gain", 1}, {"radius", 0.5f}, {"height", 0.5f}, {"slope", 1}, {"quadrants", 0}};
     const Picture four = run(values(small, "quality"));
-    for (const auto& [y, expected] : {std::pair{119u, 0.2390}, {120u, 0.2001}, {121u, 0.1653}, {123u, 0.1096}, {117u, 0.1145}}) EXPECT_NEAR(row(four, y), expected, 1e-3) << "row " << y;
+    for (const auto& [y, expected] : {std::pair{119u, 0.2390}, {120u, 0.2001}, {121u, 0.1653}, {123u, 0.1096}, {117u, 0.1145}})
+        EXPECT_NEAR(row(four, y), expected, 1e-3) << "row " << y;
     Changes one = small;
     one.push_back({"layers", kOne});
     EXPECT_NEAR(row(run(values(one, "quality")), 117), 0.7665, 2e-3);  // with one layer the floor in front is averaged in
 }
 
 TEST_F(Hall, quadrantsChangeTheResultAndPointsAgree) {
-    const Picture whole = run(values({}, "paper")), quarters = run(values({}, "quality")), points = run(values({{"estimator", kPoints}}, "quality"));
+    const Picture whole = run(values({}, "paper")), quarters = run(values({}, "quality")),
+                  points = run(values({{"estimator", kPoints}}, "quality"));
     EXPECT_NE(whole, quarters);
     double difference = 0.0;
     for (size_t i = 0; i < points.size(); ++i) difference += std::abs(points[i] - quarters[i]);
@@ -62,7 +65,8 @@ TEST_F(Hall, quadrantsChangeTheResultAndPointsAgree) {
 }
 
 TEST_F(Hall, linesConvergeToPoints) {
-    const Picture many = run(values({{"estimator", kPoints}, {"samples", 1024}})), lines = run(values({{"estimator", kLines}, {"samples", 64}}));
+    const Picture many = run(values({{"estimator", kPoints}, {"samples", 1024}})),
+                  lines = run(values({{"estimator", kLines}, {"samples", 64}}));
     double difference = 0.0;
     for (size_t i = 0; i < many.size(); ++i) difference += std::abs(many[i] - lines[i]);
     EXPECT_LT(difference / double(many.size()), 0.01);
@@ -83,7 +87,8 @@ TEST_F(Hall, adaptiveLayersConvergeToUniformOnes) {
 }
 
 TEST_F(StatisticalTest, planesAreOpen) {
-    for (const auto& normal : {std::array{0.0f, 1.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{-0.7f, 0.1f, 0.7f}}) {
+    for (const auto& normal :
+        {std::array{0.0f, 1.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}, std::array{0.5f, 1.0f, 0.05f}, std::array{-0.7f, 0.1f, 0.7f}}) {
         const Room room = plane(normal, 6.0f);  // farther away the error of the packed normal, 0.004 degrees, is visible
         for (const char* preset : {"default", "paper", "quality"}) {
             EXPECT_LT(highest(run(room, values({}, preset))), 5e-4f) << preset;  // visibility is 1, or the half float next to 1
@@ -99,7 +104,8 @@ TEST_F(StatisticalTest, resultIsIndependentOfTheFrameIndex) {
         ao::Frame one = room.frame(), other = room.frame();
         one.index = 1;
         other.index = 12345;
-        EXPECT_EQ(run(room, one, values({}, preset.id), "quadratic:1"), run(room, other, values({}, preset.id), "quadratic:1")) << preset.id;
+        EXPECT_EQ(run(room, one, values({}, preset.id), "quadratic:1"), run(room, other, values({}, preset.id), "quadratic:1"))
+            << preset.id;
     }
 }
 
@@ -116,7 +122,8 @@ TEST_F(StatisticalTest, limitedWindowScalesTheBox) {
         room.normals[4 * i + 1] = 0.0f;
         room.normals[4 * i + 2] = 1.0f;
     }
-    const Picture wide = run(room, values({{"radius", 0.8f}, {"height", 1}, {"largest", 0.11f}})), narrow = run(room, values({{"radius", 0.44f}, {"height", 0.55f}}));
+    const Picture wide = run(room, values({{"radius", 0.8f}, {"height", 1}, {"largest", 0.11f}})),
+                  narrow = run(room, values({{"radius", 0.44f}, {"height", 0.55f}}));
     EXPECT_GT(mean(narrow), 0.05);
     double difference = 0.0;
     for (size_t i = 0; i < wide.size(); ++i) difference = std::max(difference, std::abs(double(wide[i]) - narrow[i]));
@@ -127,7 +134,8 @@ TEST_F(StatisticalTest, boxScalesWithTheFalloff) {
     Room room;
     room.wall = -4.0f;
     room.build();
-    EXPECT_EQ(run(room, values({{"radius", 1.5f}, {"height", 3.0f}}), "quadratic:1"), run(room, values({{"radius", 0.75f}, {"height", 1.5f}}), "quadratic:2"));
+    EXPECT_EQ(run(room, values({{"radius", 1.5f}, {"height", 3.0f}}), "quadratic:1"),
+        run(room, values({{"radius", 0.75f}, {"height", 1.5f}}), "quadratic:2"));
     double before = 0.0;
     for (const char* falloff : {"linear:0.5", "linear:1", "wendland:2", "linear:2"}) {
         const double now = mean(run(room, values({}), falloff));

@@ -27,7 +27,8 @@ CapturedFrame sample() {
     const shared::View view = frame.view();
     for (uint32_t y = 4; y < frame.size.y; ++y)
         for (uint32_t x = 0; x < frame.size.x; ++x) {
-            const glm::vec3 ray((float(x) + 0.5f) * view.unproject.x + view.unproject.z, (float(y) + 0.5f) * view.unproject.y + view.unproject.w, -1.0f);
+            const glm::vec3 ray(
+                (float(x) + 0.5f) * view.unproject.x + view.unproject.z, (float(y) + 0.5f) * view.unproject.y + view.unproject.w, -1.0f);
             const float depth = -1.5f / glm::dot(n, ray);
             if (!(depth > 0.0f && depth < 100.0f)) continue;
             frame.depth[frame.index(x, y)] = depth;
@@ -66,7 +67,9 @@ TEST(Capture, positionsLieOnThePlane) {
     const glm::vec3 n = glm::normalize(glm::vec3(0.2f, 0.9f, 0.4f));
     for (uint32_t y = 0; y < frame.size.y; ++y)
         for (uint32_t x = 0; x < frame.size.x; ++x)
-            if (!frame.isSky(frame.index(x, y))) { EXPECT_NEAR(glm::dot(n, frame.eyePosition(x, y)), -1.5f, 1e-4f); }
+            if (!frame.isSky(frame.index(x, y))) {
+                EXPECT_NEAR(glm::dot(n, frame.eyePosition(x, y)), -1.5f, 1e-4f);
+            }
 }
 
 TEST(Capture, deviceDepthAndWorldNormalsGiveTheSameFrame) {
@@ -91,7 +94,8 @@ TEST(Capture, deviceDepthAndWorldNormalsGiveTheSameFrame) {
             const float z = frame.depth[from];
             const glm::vec3 n = worldFromEye * frame.normals[from];
             for (auto& channel : picture.channels)
-                channel.values[to] = channel.name == "Z" ? (frame.isSky(from) ? 1.0f : (-projection[2][2] * z + projection[3][2]) / z) : n[channel.name[2] - 'X'];
+                channel.values[to] = channel.name == "Z" ? (frame.isSky(from) ? 1.0f : (-projection[2][2] * z + projection[3][2]) / z)
+                                                         : n[channel.name[2] - 'X'];
         }
     writeExr(scratch / "view.capture.exr", picture);
     const CapturedFrame back = readCapture(scratch / "view");

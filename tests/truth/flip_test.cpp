@@ -65,8 +65,8 @@ struct Plain {
 constexpr double kX[3] = {0.950428545, 1.0, 1.088900371};  // D65
 
 Vec xyz(const Vec& c) {
-    return {0.4123907993 * c[0] + 0.3575843394 * c[1] + 0.1804807884 * c[2], 0.2126390059 * c[0] + 0.7151686788 * c[1] + 0.0721923154 * c[2],
-            0.0193308187 * c[0] + 0.1191947798 * c[1] + 0.9505321522 * c[2]};
+    return {0.4123907993 * c[0] + 0.3575843394 * c[1] + 0.1804807884 * c[2],
+        0.2126390059 * c[0] + 0.7151686788 * c[1] + 0.0721923154 * c[2], 0.0193308187 * c[0] + 0.1191947798 * c[1] + 0.9505321522 * c[2]};
 }
 
 Vec opponent(const Vec& rgb) {
@@ -78,8 +78,8 @@ Vec opponent(const Vec& rgb) {
 Vec labOfOpponent(const Vec& o) {
     const double y = (o[0] + 16) / 116;
     const double x[3] = {(y + o[1] / 500) * kX[0], y, (y - o[2] / 200) * kX[2]};
-    Vec rgb = {3.2409699419 * x[0] - 1.5373831776 * x[1] - 0.4986107603 * x[2], -0.9692436363 * x[0] + 1.8759675015 * x[1] + 0.0415550574 * x[2],
-               0.0556300797 * x[0] - 0.2039769589 * x[1] + 1.0569715142 * x[2]};
+    Vec rgb = {3.2409699419 * x[0] - 1.5373831776 * x[1] - 0.4986107603 * x[2],
+        -0.9692436363 * x[0] + 1.8759675015 * x[1] + 0.0415550574 * x[2], 0.0556300797 * x[0] - 0.2039769589 * x[1] + 1.0569715142 * x[2]};
     for (double& v : rgb) v = std::clamp(v, 0.0, 1.0);
     const Vec c = xyz(rgb);
     double f[3];
@@ -99,7 +99,8 @@ Vec perceivedLab(const Plain& opponents, int px, int py, double ppd) {
         for (int dx = -r; dx <= r; ++dx)
             for (size_t c = 0; c < 3; ++c) {
                 const double z = (dx * dx + dy * dy) / (ppd * ppd);
-                const double w = a1[c] * std::sqrt(kPi / b1[c]) * std::exp(-kPi * kPi * z / b1[c]) + a2[c] * std::sqrt(kPi / b2[c]) * std::exp(-kPi * kPi * z / b2[c]);
+                const double w = a1[c] * std::sqrt(kPi / b1[c]) * std::exp(-kPi * kPi * z / b1[c]) +
+                                 a2[c] * std::sqrt(kPi / b2[c]) * std::exp(-kPi * kPi * z / b2[c]);
                 sum[c] += w * opponents.at(px + dx, py + dy)[c];
                 total[c] += w;
             }
@@ -155,7 +156,8 @@ TEST(Flip, matchesItsDefinitionInColour) {
             const double color = d < 0.4 * largest ? 0.95 / (0.4 * largest) * d : 0.95 + (d - 0.4 * largest) / (0.6 * largest) * 0.05;
             const double edges = std::fabs(feature(a, x, y, ppd, true) - feature(b, x, y, ppd, true));
             const double points = std::fabs(feature(a, x, y, ppd, false) - feature(b, x, y, ppd, false));
-            EXPECT_NEAR(map.at(uint32_t(x), uint32_t(y)), std::pow(color, 1 - std::sqrt(std::max(edges, points) / std::sqrt(2.0))), 2e-3) << x << ", " << y;
+            EXPECT_NEAR(map.at(uint32_t(x), uint32_t(y)), std::pow(color, 1 - std::sqrt(std::max(edges, points) / std::sqrt(2.0))), 2e-3)
+                << x << ", " << y;
         }
 }
 

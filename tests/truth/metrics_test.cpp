@@ -18,7 +18,8 @@ float noise(uint32_t i) {
 Plane textured(uint32_t width, uint32_t height) {
     Plane plane(width, height);
     for (uint32_t y = 0; y < height; ++y)
-        for (uint32_t x = 0; x < width; ++x) plane.at(x, y) = 0.5f + 0.3f * std::sin(0.3f * float(x)) * std::cos(0.2f * float(y)) + 0.1f * noise(y * width + x);
+        for (uint32_t x = 0; x < width; ++x)
+            plane.at(x, y) = 0.5f + 0.3f * std::sin(0.3f * float(x)) * std::cos(0.2f * float(y)) + 0.1f * noise(y * width + x);
     return plane;
 }
 
@@ -84,11 +85,13 @@ TEST(Metrics, ssimMatchesItsDefinition) {
     double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0, total = 0;
     for (int dy = -5; dy <= 5; ++dy)
         for (int dx = -5; dx <= 5; ++dx) {
-            const double w = std::exp(-(dx * dx + dy * dy) / (2 * 1.5 * 1.5)), p = a.at(uint32_t(15 + dx), uint32_t(17 + dy)), q = b.at(uint32_t(15 + dx), uint32_t(17 + dy));
+            const double w = std::exp(-(dx * dx + dy * dy) / (2 * 1.5 * 1.5)), p = a.at(uint32_t(15 + dx), uint32_t(17 + dy)),
+                         q = b.at(uint32_t(15 + dx), uint32_t(17 + dy));
             ma += w * p, mb += w * q, aa += w * p * p, bb += w * q * q, ab += w * p * q, total += w;
         }
     ma /= total, mb /= total, aa /= total, bb /= total, ab /= total;
-    const double expected = (2 * ma * mb + 1e-4) * (2 * (ab - ma * mb) + 9e-4) / ((ma * ma + mb * mb + 1e-4) * (aa - ma * ma + bb - mb * mb + 9e-4));
+    const double expected =
+        (2 * ma * mb + 1e-4) * (2 * (ab - ma * mb) + 9e-4) / ((ma * ma + mb * mb + 1e-4) * (aa - ma * ma + bb - mb * mb + 9e-4));
     EXPECT_NEAR(ssimMap(a, b).at(15, 17), expected, 1e-5);
     EXPECT_LT(expected, 0.95);
 }
@@ -162,8 +165,12 @@ TEST(Metrics, errorsAffectOnlyTheirRegion) {
     const auto all = compare(a, r, regions);
     ASSERT_EQ(all.size(), kRegions);
     for (const RegionMetrics& m : all) {
-        if (m.region == Region::whole) { EXPECT_EQ(m.metrics.pixels, 5000u); }
-        if (m.region == Region::halo) { EXPECT_NEAR(m.metrics.raw.eA, 0.2f, 1e-6f); }
+        if (m.region == Region::whole) {
+            EXPECT_EQ(m.metrics.pixels, 5000u);
+        }
+        if (m.region == Region::halo) {
+            EXPECT_NEAR(m.metrics.raw.eA, 0.2f, 1e-6f);
+        }
         if (m.region == Region::disoccluded) {
             EXPECT_EQ(m.metrics.pixels, 2u);
             EXPECT_EQ(m.metrics.raw.eA, 0.0f);

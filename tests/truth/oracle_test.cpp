@@ -33,7 +33,8 @@ struct Stored {
 
     Stored(const std::string& name, const std::string& kind) {
         const fs::path oracle = folder("OBSCURA_ORACLE", "oracle");
-        if (!fs::exists(oracle / (name + ".json"))) test::skip("no " + (oracle / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
+        if (!fs::exists(oracle / (name + ".json")))
+            test::skip("no " + (oracle / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
         frame = readCapture(oracle / name);
         for (const auto& channel : readExr(oracle / (name + ".reference.exr")).channels)
             if (channel.name.starts_with(kind + ".")) {
@@ -54,8 +55,8 @@ struct Stored {
             }
             ASSERT_GT(count, 2000u);
             const double difference = sum / double(count);
-            printf("%-8s %-20s mean absolute difference %.5f, standard error %.5f, %zu pixels\n", name.c_str(), channels[c].name.c_str(), difference,
-                   double(reference.meanError(c)), count);
+            printf("%-8s %-20s mean absolute difference %.5f, standard error %.5f, %zu pixels\n", name.c_str(), channels[c].name.c_str(),
+                difference, double(reference.meanError(c)), count);
             EXPECT_LE(difference, allowed) << name << " " << channels[c].name;
         }
     }
@@ -99,7 +100,8 @@ TEST(WorldOracle, DISABLED_raysPerSecond) {
     };
     for (const bool skipMasked : {true, false}) {
         const WorldReference reference(posed, {.skipMasked = skipMasked});
-        printf("%zu triangles, tree in %.2f s, masked primitives %s\n", reference.triangles(), reference.buildSeconds(), skipMasked ? "skipped" : "included");
+        printf("%zu triangles, tree in %.2f s, masked primitives %s\n", reference.triangles(), reference.buildSeconds(),
+            skipMasked ? "skipped" : "included");
         for (const char* falloff : {"constant:2", "quadratic:2", "exponential:1"})
             for (const bool packets : {false, true})
                 for (const uint32_t threads : {1u, 2u}) {
@@ -114,7 +116,7 @@ TEST(WorldOracle, DISABLED_raysPerSecond) {
                     const Reference result = reference.trace(stored.frame, falloffs, options);
                     const double used = processorSeconds() - start;
                     printf("  %-14s %-7s %u threads: %5.2f million rays/s, %5.2f per CPU second\n", falloff, packets ? "packets" : "single",
-                           threads, 1e-6 * double(result.totalRays) / result.seconds, 1e-6 * double(result.totalRays) / used);
+                        threads, 1e-6 * double(result.totalRays) / result.seconds, 1e-6 * double(result.totalRays) / used);
                 }
     }
 }

@@ -34,13 +34,14 @@ ScreenOptions rays(uint32_t count) {
 
 // An orthographic frame: depth and normal as functions of eye-space x and y.
 CapturedFrame orthographic(glm::uvec2 visible, glm::uvec2 guard, float pixel, const std::function<float(float, float)>& depth,
-                           const std::function<glm::vec3(float, float)>& normal) {
+    const std::function<glm::vec3(float, float)>& normal) {
     scene::Camera camera;
     camera.orthoHalfHeight = 0.5f * float(visible.y) * pixel;
     CapturedFrame frame = emptyFrame(visible, guard, 1.0f, 0.1f, camera);
     for (uint32_t y = 0; y < frame.size.y; ++y)
         for (uint32_t x = 0; x < frame.size.x; ++x) {
-            const float ex = (float(x) + 0.5f - 0.5f * float(frame.size.x)) * pixel, ey = (0.5f * float(frame.size.y) - float(y) - 0.5f) * pixel;
+            const float ex = (float(x) + 0.5f - 0.5f * float(frame.size.x)) * pixel,
+                        ey = (0.5f * float(frame.size.y) - float(y) - 0.5f) * pixel;
             frame.depth[frame.index(x, y)] = depth(ex, ey);
             frame.normals[frame.index(x, y)] = normal(ex, ey);
         }
@@ -52,7 +53,8 @@ struct Verdict {
     size_t receivers = 0, outside = 0;
     double bias = 0.0, worst = 0.0;
 };
-Verdict judge(const CapturedFrame& frame, const Reference& reference, size_t channel, const std::function<double(glm::vec3 eye)>& expected) {
+Verdict judge(
+    const CapturedFrame& frame, const Reference& reference, size_t channel, const std::function<double(glm::vec3 eye)>& expected) {
     Verdict verdict;
     const glm::uvec2 part = frame.visible();
     for (uint32_t y = 0; y < part.y; ++y)
@@ -73,13 +75,15 @@ Verdict judge(const CapturedFrame& frame, const Reference& reference, size_t cha
 // Tilted planes in perspective must not block their own rays at the steps between texels.
 TEST_F(ScreenReferenceTest, openPlaneIsOpen) {
     const std::vector falloffs{rayFalloff("constant:2"), rayFalloff("exponential:1")};
-    for (const glm::vec3 normal : {glm::vec3(0, 0, 1), glm::vec3(0, 1, 0.02f), glm::vec3(0.7f, 0.7f, 0.05f), glm::vec3(-0.9f, 0.3f, 0.3f)}) {
+    for (const glm::vec3 normal :
+        {glm::vec3(0, 0, 1), glm::vec3(0, 1, 0.02f), glm::vec3(0.7f, 0.7f, 0.05f), glm::vec3(-0.9f, 0.3f, 0.3f)}) {
         const glm::vec3 n = glm::normalize(normal);
         CapturedFrame frame = emptyFrame({160, 90}, {16, 9}, 1.0471976f, 0.1f);
         const shared::View view = frame.view();
         for (uint32_t y = 0; y < frame.size.y; ++y)
             for (uint32_t x = 0; x < frame.size.x; ++x) {
-                const glm::vec3 ray((float(x) + 0.5f) * view.unproject.x + view.unproject.z, (float(y) + 0.5f) * view.unproject.y + view.unproject.w, -1.0f);
+                const glm::vec3 ray((float(x) + 0.5f) * view.unproject.x + view.unproject.z,
+                    (float(y) + 0.5f) * view.unproject.y + view.unproject.w, -1.0f);
                 const float depth = -1.6f / glm::dot(n, ray);
                 if (!(depth > 0.0f && depth < 50.0f)) continue;
                 frame.depth[frame.index(x, y)] = depth;
@@ -104,10 +108,11 @@ TEST_F(ScreenReferenceTest, openPlaneIsOpen) {
 // A valley of two walls, each 45 degrees from the view axis, 12 mm per pixel.
 TEST_F(ScreenReferenceTest, rightAngledWallMatchesTheClosedForm) {
     const float s = std::sqrt(0.5f), reach = 10.0f;
-    const CapturedFrame frame = orthographic({64, 126}, {868, 837}, 0.012f, [](float, float y) { return 20.0f - std::fabs(y); },
-                                             [=](float, float y) { return glm::vec3(0.0f, y < 0.0f ? s : -s, s); });
-    const std::vector<RayFalloff> falloffs = {{"exp(-d)", [](float d) { return std::exp(-d); }, reach},
-                                              {"1/(1+d^2)", [](float d) { return 1.0f / (1.0f + d * d); }, reach}};
+    const CapturedFrame frame = orthographic(
+        {64, 126}, {868, 837}, 0.012f, [](float, float y) { return 20.0f - std::fabs(y); },
+        [=](float, float y) { return glm::vec3(0.0f, y < 0.0f ? s : -s, s); });
+    const std::vector<RayFalloff> falloffs = {
+        {"exp(-d)", [](float d) { return std::exp(-d); }, reach}, {"1/(1+d^2)", [](float d) { return 1.0f / (1.0f + d * d); }, reach}};
     ScreenOptions options = rays(1024);
     options.stride = 7;
     const Reference reference = trace(frame, falloffs, options);
@@ -116,11 +121,12 @@ TEST_F(ScreenReferenceTest, rightAngledWallMatchesTheClosedForm) {
         const Verdict verdict = judge(frame, reference, f, [&](glm::vec3 eye) {
             const float distance = std::fabs(eye.y) / s;
             if (distance < 0.09f) return -1.0;  // fewer than six texels to the wall
-            if (!known.count(distance)) known[distance] = test::wall(distance, [&](double d) { return d < reach ? double(falloffs[f].rho(float(d))) : 0.0; }, 512);
+            if (!known.count(distance))
+                known[distance] = test::wall(distance, [&](double d) { return d < reach ? double(falloffs[f].rho(float(d))) : 0.0; }, 512);
             return known[distance];
         });
-        printf("screen wall %s: %zu receivers, %zu outside 3 standard errors, bias %+.5f, worst %.4f, mean error %.5f\n", falloffs[f].name.c_str(),
-               verdict.receivers, verdict.outside, verdict.bias, verdict.worst, double(reference.meanError(f)));
+        printf("screen wall %s: %zu receivers, %zu outside 3 standard errors, bias %+.5f, worst %.4f, mean error %.5f\n",
+            falloffs[f].name.c_str(), verdict.receivers, verdict.outside, verdict.bias, verdict.worst, double(reference.meanError(f)));
         EXPECT_GT(verdict.receivers, 100u);
         EXPECT_LE(verdict.outside, verdict.receivers / 25);
         EXPECT_LE(std::fabs(verdict.bias), 0.0005);
@@ -130,15 +136,19 @@ TEST_F(ScreenReferenceTest, rightAngledWallMatchesTheClosedForm) {
 // From above, a depth buffer describes a sphere as a sphere on a column.
 TEST_F(ScreenReferenceTest, sphereOverPlaneMatchesASphereOnAColumn) {
     const float radius = 0.5f, height = 1.0f, floor = 10.0f, pixel = 0.0025f;
-    const CapturedFrame frame = orthographic({900, 64}, {500, 700}, pixel, [=](float x, float y) {
-        const float r2 = x * x + y * y;
-        return r2 < radius * radius ? floor - height - std::sqrt(radius * radius - r2) : floor;
-    }, [](float, float) { return glm::vec3(0, 0, 1); });
+    const CapturedFrame frame = orthographic(
+        {900, 64}, {500, 700}, pixel,
+        [=](float x, float y) {
+            const float r2 = x * x + y * y;
+            return r2 < radius * radius ? floor - height - std::sqrt(radius * radius - r2) : floor;
+        },
+        [](float, float) { return glm::vec3(0, 0, 1); });
     ScreenOptions options = rays(1024);
     options.stride = 20;
     const auto column = [=](glm::vec3 from, double x, double y, double z) {
         // Enters the infinite column below the sphere's centre, or hits the sphere.
-        const double b = from.x * x + from.y * y, a = x * x + y * y, c = double(from.x) * from.x + double(from.y) * from.y - radius * radius;
+        const double b = from.x * x + from.y * y, a = x * x + y * y,
+                     c = double(from.x) * from.x + double(from.y) * from.y - radius * radius;
         const double inside = b * b - a * c;
         if (inside > 0.0 && a > 0.0) {
             const double t = (-b - std::sqrt(inside)) / a;
@@ -153,10 +163,11 @@ TEST_F(ScreenReferenceTest, sphereOverPlaneMatchesASphereOnAColumn) {
     const Verdict verdict = judge(frame, reference, 0, [&](glm::vec3 eye) {
         const double r = std::hypot(eye.x, eye.y);
         if (r < radius + 0.02f) return -1.0;
-        return test::quadrature([&](double x, double y, double z) { return column(glm::vec3(eye.x, eye.y, 0), x, y, z); }, [](double d) { return d < 1.6 ? 1.0 : 0.0; }, 256);
+        return test::quadrature([&](double x, double y, double z) { return column(glm::vec3(eye.x, eye.y, 0), x, y, z); },
+            [](double d) { return d < 1.6 ? 1.0 : 0.0; }, 256);
     });
-    printf("screen sphere: %zu receivers, %zu outside 3 standard errors, bias %+.5f, worst %.4f, mean error %.5f\n", verdict.receivers, verdict.outside,
-           verdict.bias, verdict.worst, double(reference.meanError()));
+    printf("screen sphere: %zu receivers, %zu outside 3 standard errors, bias %+.5f, worst %.4f, mean error %.5f\n", verdict.receivers,
+        verdict.outside, verdict.bias, verdict.worst, double(reference.meanError()));
     EXPECT_GT(verdict.receivers, 20u);
     EXPECT_LE(verdict.outside, verdict.receivers / 20);
 }
@@ -165,26 +176,31 @@ TEST_F(ScreenReferenceTest, sphereOverPlaneMatchesASphereOnAColumn) {
 TEST_F(ScreenReferenceTest, wellMatchesTheClosedForm) {
     for (const float radius : {4.0f, 0.1f}) {
         const float deep = 20.0f, top = 1.0f, pixel = radius / 64.0f;
-        const CapturedFrame frame = orthographic({4, 4}, {80, 80}, pixel, [=](float x, float y) { return x * x + y * y < radius * radius ? top + deep : top; },
-                                                 [](float, float) { return glm::vec3(0, 0, 1); });
+        const CapturedFrame frame = orthographic(
+            {4, 4}, {80, 80}, pixel, [=](float x, float y) { return x * x + y * y < radius * radius ? top + deep : top; },
+            [](float, float) { return glm::vec3(0, 0, 1); });
         const std::vector falloffs{rayFalloff("constant:100")};
         const Reference reference = trace(frame, falloffs, rays(4096));
         const double expected = 1.0 - radius * radius / (radius * radius + deep * deep);
         for (size_t i = 0; i < 16; ++i)
-            EXPECT_NEAR(reference.channels[0].obscurance.values[i], expected, 3.0 * double(reference.channels[0].error.values[i]) + 1e-3) << radius;
+            EXPECT_NEAR(reference.channels[0].obscurance.values[i], expected, 3.0 * double(reference.channels[0].error.values[i]) + 1e-3)
+                << radius;
     }
 }
 
 // A plate 1 m above a floor: with infinite thickness a column, with its thickness a plate.
 TEST_F(ScreenReferenceTest, thicknessLetsRaysPassBelow) {
     const float radius = 0.5f, height = 1.0f, thick = 0.1f, pixel = 0.0025f;
-    const CapturedFrame frame = orthographic({800, 4}, {500, 900}, pixel, [=](float x, float y) { return x * x + y * y < radius * radius ? 9.0f - thick : 10.0f; },
-                                             [](float, float) { return glm::vec3(0, 0, 1); });
+    const CapturedFrame frame = orthographic(
+        {800, 4}, {500, 900}, pixel, [=](float x, float y) { return x * x + y * y < radius * radius ? 9.0f - thick : 10.0f; },
+        [](float, float) { return glm::vec3(0, 0, 1); });
     const auto slab = [=](glm::vec3 from, double low, double x, double y, double z) {
-        const double b = from.x * x + from.y * y, a = x * x + y * y, c = double(from.x) * from.x + double(from.y) * from.y - radius * radius;
+        const double b = from.x * x + from.y * y, a = x * x + y * y,
+                     c = double(from.x) * from.x + double(from.y) * from.y - radius * radius;
         const double inside = b * b - a * c;
         if (inside <= 0.0 || a <= 0.0) return -1.0;
-        const double enter = std::max((-b - std::sqrt(inside)) / a, low / z), leave = std::min((-b + std::sqrt(inside)) / a, (height + thick) / z);
+        const double enter = std::max((-b - std::sqrt(inside)) / a, low / z),
+                     leave = std::min((-b + std::sqrt(inside)) / a, (height + thick) / z);
         return enter < leave && leave > 0.0 ? enter : -1.0;
     };
     const std::vector falloffs{rayFalloff("constant:2")};
@@ -195,11 +211,13 @@ TEST_F(ScreenReferenceTest, thicknessLetsRaysPassBelow) {
         const Reference reference = trace(frame, falloffs, options);
         const Verdict verdict = judge(frame, reference, 0, [&](glm::vec3 eye) {
             if (std::hypot(eye.x, eye.y) < radius + 3.0f * pixel) return -1.0;
-            return test::quadrature([&](double x, double y, double z) { return slab(glm::vec3(eye.x, eye.y, 0), infinite ? 0.0 : height, x, y, z); },
-                                    [](double d) { return d < 2.0 ? 1.0 : 0.0; }, 256);
+            return test::quadrature(
+                [&](double x, double y, double z) { return slab(glm::vec3(eye.x, eye.y, 0), infinite ? 0.0 : height, x, y, z); },
+                [](double d) { return d < 2.0 ? 1.0 : 0.0; }, 256);
         });
         printf("screen plate, %s: %zu receivers, %zu outside 3 standard errors, bias %+.5f, worst %.4f, mean error %.5f\n",
-               infinite ? "infinite" : "0.1 m", verdict.receivers, verdict.outside, verdict.bias, verdict.worst, double(reference.meanError()));
+            infinite ? "infinite" : "0.1 m", verdict.receivers, verdict.outside, verdict.bias, verdict.worst,
+            double(reference.meanError()));
         EXPECT_GT(verdict.receivers, 10u);
         EXPECT_LE(verdict.outside, verdict.receivers / 20);
     }
@@ -207,8 +225,9 @@ TEST_F(ScreenReferenceTest, thicknessLetsRaysPassBelow) {
 
 TEST_F(ScreenReferenceTest, isDeterministicAndAddsRaysWhereNeeded) {
     const float s = std::sqrt(0.5f);
-    const CapturedFrame frame = orthographic({48, 48}, {60, 60}, 0.05f, [](float, float y) { return 20.0f - std::fabs(y); },
-                                             [=](float, float y) { return glm::vec3(0.0f, y < 0.0f ? s : -s, s); });
+    const CapturedFrame frame = orthographic(
+        {48, 48}, {60, 60}, 0.05f, [](float, float y) { return 20.0f - std::fabs(y); },
+        [=](float, float y) { return glm::vec3(0.0f, y < 0.0f ? s : -s, s); });
     const std::vector falloffs{rayFalloff("quadratic:1"), rayFalloff("linear:0.5")};
     ScreenOptions options;
     options.targetError = 0.004f;
@@ -235,7 +254,8 @@ TEST_F(ScreenReferenceTest, invalidInputIsRefused) {
     CapturedFrame frame = emptyFrame({8, 8}, {0, 0}, 1.0f, 0.1f);
     EXPECT_EQ(trace(frame, {rayFalloff("quadratic:2")}, {}).totalRays, 0u);  // all sky
     test::expectError([&] { trace(frame, {}, {}); }, "0 falloffs");
-    test::expectError([&] { trace(frame, {{"far", [](float) { return 1.0f; }, std::numeric_limits<float>::infinity()}}, {}); }, "finite reach");
+    test::expectError(
+        [&] { trace(frame, {{"far", [](float) { return 1.0f; }, std::numeric_limits<float>::infinity()}}, {}); }, "finite reach");
     ScreenOptions thin;
     thin.thickness = 0.0f;
     test::expectError([&] { trace(frame, {rayFalloff("quadratic:2")}, thin); }, "thickness");

@@ -52,11 +52,13 @@ public:
         for (int i = 0; i <= rings; ++i)
             for (int j = 0; j <= sides; ++j) {
                 const double theta = kPi * i / rings, phi = 2.0 * kPi * j / sides;
-                positions.push_back(centre + radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)));
+                positions.push_back(
+                    centre + radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)));
             }
         const auto at = [&](int i, int j) { return uint32_t(i * (sides + 1) + j); };
         for (int i = 0; i < rings; ++i)
-            for (int j = 0; j < sides; ++j) indices.insert(indices.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+            for (int j = 0; j < sides; ++j)
+                indices.insert(indices.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
         add(std::move(positions), std::move(indices));
     }
 
@@ -67,7 +69,8 @@ private:
 
 // Obscurance of a point on a floor, normal +z: the cosine-weighted mean of rho(hit(direction)), by the midpoint rule over
 // the unit disc below the directions. `hit` gives the distance, negative where the ray escapes.
-inline double quadrature(const std::function<double(double x, double y, double z)>& hit, const std::function<double(double)>& rho, int n = 1024) {
+inline double quadrature(
+    const std::function<double(double x, double y, double z)>& hit, const std::function<double(double)>& rho, int n = 1024) {
     double sum = 0.0;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {

@@ -115,7 +115,7 @@ TEST(Stability, noiseOfTheReferenceIsSubtracted) {
     const Plane truth(kVisible.x, kVisible.y, 0.6f), error(kVisible.x, kVisible.y, 0.04f);
     const auto traced = [&](uint32_t seed) { return Traced{noisy(truth, 0.04f, seed), error}; };
     const Change still = change(way, truth, truth, traced(1), traced(2));
-    EXPECT_LT(still.flickerOfError, 0.012f);  // 0.05 if it counted
+    EXPECT_LT(still.flickerOfError, 0.012f);       // 0.05 if it counted
     EXPECT_LT(still.referenceDifference, 0.016f);  // 0.04
     const Change flickering = change(way, noisy(truth, 0.05f, 3), truth, traced(1), traced(2));
     EXPECT_NEAR(flickering.flickerOfError, 0.05f, 0.004f);

@@ -28,12 +28,14 @@ struct Falloff {
 };
 std::vector<Falloff> wallFalloffs() {
     return {{{"exp(-d)", [](float d) { return std::exp(-d); }, 60.0f}, {0.34128, 0.13836, 0.05758}},
-            {{"1/(1+d^2)", [](float d) { return 1.0f / (1.0f + d * d); }, std::numeric_limits<float>::infinity()}, {0.40950, 0.19098, 0.08579}}};
+        {{"1/(1+d^2)", [](float d) { return 1.0f / (1.0f + d * d); }, std::numeric_limits<float>::infinity()},
+            {0.40950, 0.19098, 0.08579}}};
 }
 
 void expectWithin(const Reference& reference, size_t channel, size_t i, double expected, double slack = 0.0) {
     const float value = reference.channels[channel].obscurance.values[i], error = reference.channels[channel].error.values[i];
-    EXPECT_NEAR(value, expected, 3.0 * double(error) + slack) << reference.channels[channel].name << ", receiver " << i << ", error " << error;
+    EXPECT_NEAR(value, expected, 3.0 * double(error) + slack)
+        << reference.channels[channel].name << ", receiver " << i << ", error " << error;
     EXPECT_LE(error, 0.005f);
 }
 
@@ -64,7 +66,8 @@ TEST(WorldReference, rightAngledWallMatchesTheClosedForm) {
             const double expected = wallFalloffs()[f].expected[i];
             EXPECT_NEAR(test::wall(distances[i], [&](double d) { return double(falloffs[f].rho(float(d))); }), expected, 2e-5);
             expectWithin(reference, f, i, expected);
-            RecordProperty(falloffs[f].name + " at " + std::to_string(distances[i]), std::to_string(reference.channels[f].obscurance.values[i]));
+            RecordProperty(
+                falloffs[f].name + " at " + std::to_string(distances[i]), std::to_string(reference.channels[f].obscurance.values[i]));
         }
 }
 
@@ -95,7 +98,8 @@ TEST(WorldReference, fullEnclosureIsOne) {
             shapes.quad(c, a, b);
         }
     const WorldReference world(shapes.posed());
-    const std::vector<Receiver> receivers = {{{0, 0, 0}, {0, 0, 1}}, {{0.9f, -0.3f, -1.0f}, {0, 0, 1}}, {{-1.0f, 0.999f, 0.999f}, {1, 0, 0}}};
+    const std::vector<Receiver> receivers = {
+        {{0, 0, 0}, {0, 0, 1}}, {{0.9f, -0.3f, -1.0f}, {0, 0, 1}}, {{-1.0f, 0.999f, 0.999f}, {1, 0, 0}}};
     const std::vector falloffs{rayFalloff("constant:10")};
     const Reference reference = world.trace(receivers, falloffs, rays(4096));
     for (const float value : reference.channels[0].obscurance.values) EXPECT_EQ(value, 1.0f);
@@ -237,7 +241,8 @@ TEST(WorldReference, maskedTexelsLetRaysThrough) {
     model.materials[0].alphaMode = scene::AlphaMode::blend;
     const std::vector falloffs{rayFalloff("constant:2")};
     EXPECT_EQ(WorldReference(shapes.posed()).trace(receivers, falloffs, rays(64)).channels[0].obscurance.values[0], 0.0f);
-    EXPECT_GT(WorldReference(shapes.posed(), {.skipBlended = false}).trace(receivers, falloffs, rays(64)).channels[0].obscurance.values[0], 0.4f);
+    EXPECT_GT(
+        WorldReference(shapes.posed(), {.skipBlended = false}).trace(receivers, falloffs, rays(64)).channels[0].obscurance.values[0], 0.4f);
 }
 
 TEST(WorldReference, progressIsReportedAndCanStop) {

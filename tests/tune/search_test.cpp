@@ -33,7 +33,8 @@ TEST(Search, findsTheMinimumOfABowlDeterministically) {
 
 TEST(Search, endsWhenAllIntegersAreTried) {
     size_t calls = 0;
-    const std::vector<double> best = search({1.0}, 20, 1, [&](const std::vector<double>& p) -> Answer { return {std::round(p[0]), ++calls == 1}; });
+    const std::vector<double> best =
+        search({1.0}, 20, 1, [&](const std::vector<double>& p) -> Answer { return {std::round(p[0]), ++calls == 1}; });
     EXPECT_LT(best[0], 0.5);
     EXPECT_LT(calls, 2000u);
 }

@@ -18,7 +18,8 @@ TEST(Falloff, parsesItsText) {
     EXPECT_FLOAT_EQ(f.length, 2.0f);
     ASSERT_TRUE(parseFalloff("ramp:0.385:1", f));
     EXPECT_FLOAT_EQ(f.end, 1.0f);
-    for (const char* bad : {"", "quadratic", "quadratic:", "quadratic:-1", "quadratic:0", "quadratic:2x", "cubic:1", "ramp:1", "ramp:1:0.5", "linear:nan"})
+    for (const char* bad :
+        {"", "quadratic", "quadratic:", "quadratic:-1", "quadratic:0", "quadratic:2x", "cubic:1", "ramp:1", "ramp:1:0.5", "linear:nan"})
         EXPECT_FALSE(parseFalloff(bad, f)) << bad;
     EXPECT_FALSE(parseFalloff(nullptr, f));
 }
@@ -53,7 +54,8 @@ TEST(Registry, tablesAreConsistent) {
         for (const Preset& preset : info->presets) {
             Values values(*info);
             EXPECT_TRUE(values.apply(preset)) << info->id << " preset " << preset.id << " sets an unknown parameter";
-            for (const Setting& s : preset.settings) EXPECT_FLOAT_EQ(values[s.id], s.value) << info->id << "." << s.id << " is out of range";
+            for (const Setting& s : preset.settings)
+                EXPECT_FLOAT_EQ(values[s.id], s.value) << info->id << "." << s.id << " is out of range";
         }
     }
     EXPECT_TRUE(ids.count("none") && ids.count("hbao"));
@@ -78,8 +80,8 @@ struct Convention {
 };
 const float f = 1.5f, a = 0.8f, n = 0.1f, far_ = 100.0f;
 const Convention kConventions[] = {
-    {"standard", {f * a, 0, 0, 0, 0, -f, 0, 0, 0, 0, -far_ / (far_ - n), -1, 0, 0, -far_ * n / (far_ - n), 0}},
-    {"reversed", {f * a, 0, 0, 0, 0, -f, 0, 0, 0, 0, n / (far_ - n), -1, 0, 0, far_ * n / (far_ - n), 0}},
+    {"standard", {f * a, 0, 0, 0, 0, -f, 0, 0, 0, 0, -far_ / (far_ - n), -1, 0, 0, -far_* n / (far_ - n), 0}},
+    {"reversed", {f * a, 0, 0, 0, 0, -f, 0, 0, 0, 0, n / (far_ - n), -1, 0, 0, far_* n / (far_ - n), 0}},
     {"reversed infinite", {f * a, 0, 0, 0, 0, -f, 0, 0, 0, 0, 0, -1, 0, 0, n, 0}},
     {"flipped y", {f * a, 0, 0, 0, 0, f, 0, 0, 0, 0, 0, -1, 0, 0, n, 0}},
     {"off-centre", {f * a, 0, 0, 0, 0, -f, 0, 0, 0.2f, -0.3f, 0, -1, 0, 0, n, 0}},
@@ -129,7 +131,8 @@ TEST(View, refusesInvalidProjections) {
 
 // Shaders use only the features that DeviceDesc::device lists.
 TEST(Shaders, useOnlyTheFeaturesNamedInTheHeader) {
-    constexpr uint32_t kCapability = 17, kShader = 1, kExtendedFormats = 49, kQuery = 50;  // SPIR-V capabilities; image queries need no feature
+    constexpr uint32_t kCapability = 17, kShader = 1, kExtendedFormats = 49,
+                       kQuery = 50;  // SPIR-V capabilities; image queries need no feature
     const std::set<uint32_t> stated{kShader, kExtendedFormats, kQuery};
     EXPECT_GT(shaders().size(), 30u);
     for (const gpu::EmbeddedShader& shader : shaders())

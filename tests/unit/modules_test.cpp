@@ -86,14 +86,15 @@ TEST(Modules, eachHasAReadme) {
 TEST(Modules, theReadmeListsEveryMethod) {
     std::ifstream in(kRoot / "README.md");
     const std::string text((std::istreambuf_iterator<char>(in)), {});
-    for (const obscura::ao::MethodInfo* info : obscura::ao::methods()) EXPECT_NE(text.find("\n| `" + std::string(info->id) + "` | "), std::string::npos) << info->id;
+    for (const obscura::ao::MethodInfo* info : obscura::ao::methods())
+        EXPECT_NE(text.find("\n| `" + std::string(info->id) + "` | "), std::string::npos) << info->id;
     EXPECT_NE(text.find("(content/methods.jpg)"), std::string::npos);
     EXPECT_TRUE(fs::exists(kRoot / "content/methods.jpg"));
 }
 
 TEST(Modules, topLevelHasOnlyTheAgreedEntries) {
-    const std::set<std::string> agreed = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "runtime", "game",
-                                          "shaders", "content", "tests", "tools", "build", "out"};
+    const std::set<std::string> agreed = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "runtime", "game", "shaders",
+        "content", "tests", "tools", "build", "out"};
     for (const auto& entry : fs::directory_iterator(kRoot)) {
         const std::string name = entry.path().filename().string();
         EXPECT_TRUE(name[0] == '.' || agreed.count(name)) << name;

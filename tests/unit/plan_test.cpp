@@ -17,7 +17,11 @@ struct Sketch {
         return add({.name = name, .desc = {format, 64, 64, 1, mips, 0}});
     }
     uint32_t imported(const char* name, State state, bool output = false) {
-        return add({.name = name, .origin = Origin::imported, .desc = {VK_FORMAT_R32_SFLOAT, 64, 64, 1, 1, 0}, .initial = {state}, .output = output});
+        return add({.name = name,
+            .origin = Origin::imported,
+            .desc = {VK_FORMAT_R32_SFLOAT, 64, 64, 1, 1, 0},
+            .initial = {state},
+            .output = output});
     }
     uint32_t history(const char* name, State state, bool output) {
         const uint32_t index = imported(name, state, output);
@@ -29,7 +33,9 @@ struct Sketch {
         return add({.name = name, .origin = Origin::imported, .isBuffer = true, .bytes = 64, .initial = {state}});
     }
     uint32_t scratch(const char* name, uint64_t bytes) { return add({.name = name, .isBuffer = true, .bytes = bytes}); }
-    uint32_t upload(const char* name, uint64_t bytes) { return add({.name = name, .origin = Origin::upload, .isBuffer = true, .bytes = bytes}); }
+    uint32_t upload(const char* name, uint64_t bytes) {
+        return add({.name = name, .origin = Origin::upload, .isBuffer = true, .bytes = bytes});
+    }
     uint32_t add(Resource resource) {
         recording.resources.push_back(std::move(resource));
         return uint32_t(recording.resources.size() - 1);
@@ -49,10 +55,10 @@ TEST(Plan, readAfterWriteWaitsOnTheWriteOnce) {
     s.pass("first", {read(a)}, true);
     s.pass("second", {read(a)}, true);
     EXPECT_EQ(s.text(),
-              "make\n  a: -(-) > compute(write) undefined>general\n"
-              "first\n  a: compute(write) > compute(read)\n"
-              "second\n"
-              "image 0: a\n");
+        "make\n  a: -(-) > compute(write) undefined>general\n"
+        "first\n  a: compute(write) > compute(read)\n"
+        "second\n"
+        "image 0: a\n");
 }
 
 TEST(Plan, readInAnotherStageNeedsItsOwnVisibility) {
@@ -62,9 +68,9 @@ TEST(Plan, readInAnotherStageNeedsItsOwnVisibility) {
     s.pass("compute", {read(a)}, true);
     s.pass("fragment", {{a, 0, 1, Access::storageRead, kFragment}}, true);
     EXPECT_EQ(s.text(),
-              "make\n"
-              "compute\n  a: compute(write) > compute(read)\n"
-              "fragment\n  a: compute(write) > fragment(read)\n");
+        "make\n"
+        "compute\n  a: compute(write) > compute(read)\n"
+        "fragment\n  a: compute(write) > fragment(read)\n");
 }
 
 TEST(Plan, layoutChangeIsAWriteVisibleToItsReader) {
@@ -75,11 +81,11 @@ TEST(Plan, layoutChangeIsAWriteVisibleToItsReader) {
     s.pass("again", {sample(a)}, true);
     s.pass("tone", {sample(a, kFragment)}, true);
     EXPECT_EQ(s.text(),
-              "draw\n  a: -(-) > color(blend+draw) undefined>color\n"
-              "light\n  a: color(blend+draw) > compute(sample) color>sampled\n"
-              "again\n"
-              "tone\n  a: compute(-) > fragment(sample)\n"
-              "image 0: a\n");
+        "draw\n  a: -(-) > color(blend+draw) undefined>color\n"
+        "light\n  a: color(blend+draw) > compute(sample) color>sampled\n"
+        "again\n"
+        "tone\n  a: compute(-) > fragment(sample)\n"
+        "image 0: a\n");
 }
 
 TEST(Plan, writeAfterReadWaitsOnEveryReader) {
@@ -115,11 +121,11 @@ TEST(Plan, mipChainKeepsEachMipsState) {
     s.pass("mip2", {read(a, 1), write(a, 2)});
     s.pass("use", {{a, 0, 3, Access::sampled, kCompute}}, true);
     EXPECT_EQ(s.text(),
-              "mip0\n  a[0]: -(-) > compute(write) undefined>general\n"
-              "mip1\n  a[0]: compute(write) > compute(read)\n  a[1]: -(-) > compute(write) undefined>general\n"
-              "mip2\n  a[1]: compute(write) > compute(read)\n  a[2]: -(-) > compute(write) undefined>general\n"
-              "use\n  a[0-2]: compute(write) > compute(sample) general>sampled\n"
-              "image 0: a\n");
+        "mip0\n  a[0]: -(-) > compute(write) undefined>general\n"
+        "mip1\n  a[0]: compute(write) > compute(read)\n  a[1]: -(-) > compute(write) undefined>general\n"
+        "mip2\n  a[1]: compute(write) > compute(read)\n  a[2]: -(-) > compute(write) undefined>general\n"
+        "use\n  a[0-2]: compute(write) > compute(sample) general>sampled\n"
+        "image 0: a\n");
 }
 
 TEST(Plan, transientsOfEqualDescriptionAndDisjointLifetimesShareAnImage) {
@@ -130,11 +136,11 @@ TEST(Plan, transientsOfEqualDescriptionAndDisjointLifetimesShareAnImage) {
     s.pass("c", {read(b), write(c)});
     s.pass("d", {read(c), write(d)}, true);
     EXPECT_EQ(s.text(),
-              "a\n  a: -(-) > compute(write) undefined>general\n"
-              "b\n  a: compute(write) > compute(read)\n  b: -(-) > compute(write) undefined>general\n"
-              "c\n  b: compute(write) > compute(read)\n  c: compute(write) > compute(write) undefined>general\n"
-              "d\n  c: compute(write) > compute(read)\n  d: -(-) > compute(write) undefined>general\n"
-              "image 0: a c\nimage 1: b\nimage 2: d\n");
+        "a\n  a: -(-) > compute(write) undefined>general\n"
+        "b\n  a: compute(write) > compute(read)\n  b: -(-) > compute(write) undefined>general\n"
+        "c\n  b: compute(write) > compute(read)\n  c: compute(write) > compute(write) undefined>general\n"
+        "d\n  c: compute(write) > compute(read)\n  d: -(-) > compute(write) undefined>general\n"
+        "image 0: a c\nimage 1: b\nimage 2: d\n");
 }
 
 TEST(Plan, nextFrameWaitsForReadersOfThePrevious) {
@@ -144,9 +150,9 @@ TEST(Plan, nextFrameWaitsForReadersOfThePrevious) {
     s.pass("use", {sample(a, kFragment)}, true);
     const Plan first = plan(s.recording);
     EXPECT_EQ(s.text(first.slots),
-              "make\n  a: fragment(-) > compute(write) undefined>general\n"
-              "use\n  a: compute(write) > fragment(sample) general>sampled\n"
-              "image 0: a\n");
+        "make\n  a: fragment(-) > compute(write) undefined>general\n"
+        "use\n  a: compute(write) > fragment(sample) general>sampled\n"
+        "image 0: a\n");
 }
 
 TEST(Plan, historyKeepsItsStateBetweenFrames) {
@@ -160,8 +166,8 @@ TEST(Plan, historyKeepsItsStateBetweenFrames) {
     s.pass("blend", {sample(previous), write(current)});
     const Plan result = plan(s.recording);
     EXPECT_EQ(result.text(s.recording),
-              "blend\n  history.previous: compute(write) > compute(sample) general>sampled\n"
-              "  history: compute(-) > compute(write)\n");
+        "blend\n  history.previous: compute(write) > compute(sample) general>sampled\n"
+        "  history: compute(-) > compute(write)\n");
     EXPECT_EQ(result.finalStates[current][0].writeStages, kCompute);
     EXPECT_EQ(result.finalStates[previous][0].layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
@@ -174,9 +180,9 @@ TEST(Plan, unreadPassesAreCulled) {
     s.pass("unused", {read(a), write(b)});
     s.pass("final", {read(a), write(out)});
     EXPECT_EQ(s.text(),
-              "used\n  a: -(-) > compute(write) undefined>general\n"
-              "final\n  a: compute(write) > compute(read)\n  out: -(-) > compute(write) undefined>general\n"
-              "culled unused\nimage 0: a\n");
+        "used\n  a: -(-) > compute(write) undefined>general\n"
+        "final\n  a: compute(write) > compute(read)\n  out: -(-) > compute(write) undefined>general\n"
+        "culled unused\nimage 0: a\n");
 }
 
 TEST(Plan, hostImagesReturnToTheirLayout) {
@@ -186,8 +192,8 @@ TEST(Plan, hostImagesReturnToTheirLayout) {
     s.recording.resources[a].finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
     s.pass("read", {sample(a)}, true);
     EXPECT_EQ(s.text(),
-              "read\n  depth: all(anyWrite) > compute(sample) other>sampled\n"
-              "end\n  depth: compute(-) > all(anyRead+anyWrite) sampled>other\n");
+        "read\n  depth: all(anyWrite) > compute(sample) other>sampled\n"
+        "end\n  depth: compute(-) > all(anyRead+anyWrite) sampled>other\n");
 }
 
 TEST(Plan, readingAnUnwrittenImageIsAProblem) {
@@ -207,11 +213,11 @@ TEST(Plan, transientBuffersOfEqualSizeAndDisjointLifetimesShareABuffer) {
     s.pass("c", {read(b), write(c)});
     s.pass("d", {read(c), write(d)}, true);
     EXPECT_EQ(s.text(),
-              "a\n"
-              "b\n  a: compute(write) > compute(read)\n"
-              "c\n  b: compute(write) > compute(read)\n  c: compute(write) > compute(write)\n"
-              "d\n  c: compute(write) > compute(read)\n"
-              "buffer 0: a c\nbuffer 1: b\nbuffer 2: d\n");
+        "a\n"
+        "b\n  a: compute(write) > compute(read)\n"
+        "c\n  b: compute(write) > compute(read)\n  c: compute(write) > compute(write)\n"
+        "d\n  c: compute(write) > compute(read)\n"
+        "buffer 0: a c\nbuffer 1: b\nbuffer 2: d\n");
 }
 
 TEST(Plan, slotsOfAnEarlierFrameAreReused) {
@@ -259,7 +265,7 @@ TEST(Plan, memoryCountsPoolHistoriesAndUploadsOfEveryFrame) {
     const Plan result = plan(s.recording);
     EXPECT_TRUE(result.problems.empty());
     const MemoryOf memory{[](const gpu::ImageDesc& desc) { return uint64_t(desc.width) * desc.height * 4; },
-                          [](uint64_t size, VkBufferUsageFlags, gpu::Memory) { return size; }};
+        [](uint64_t size, VkBufferUsageFlags, gpu::Memory) { return size; }};
     const uint64_t image = 64 * 64 * 4;
     EXPECT_EQ(bytes(s.recording, result, 3, memory), 2 * image + 1000 + 2 * image + 3 * (256 << 10));  // c shares the slot of a
     EXPECT_EQ(result.text(s.recording).find("unused"), std::string::npos);

@@ -94,7 +94,7 @@ TEST(VoxelWork, walkingToastersDoNotRevoxelizeTheHall) {
     }
     std::nth_element(bytes.begin(), bytes.begin() + long(bytes.size() / 2), bytes.end());
     fmt::print("eight toasters in {} objects of {} cells: {:.1f} KiB changed per frame (median)\n", first.objects, first.objectCells,
-               double(bytes[bytes.size() / 2]) / 1024.0);
+        double(bytes[bytes.size() / 2]) / 1024.0);
     EXPECT_LT(bytes[bytes.size() / 2], first.windowBytes / 100);
 }
 

@@ -48,16 +48,20 @@ void expectExact(const Soup& soup, double cellSize) {
                 for (cell.z = int(std::floor(low.z)) - 1; cell.z <= int(std::floor(high.z)) + 1; ++cell.z) {
                     const bool set = bricks.test(cell);
                     seen += set;
-                    if (set) ASSERT_TRUE(cutOverlaps(p, cell, 1e-5)) << "triangle " << t / 3 << ", cell " << cell.x << ' ' << cell.y << ' ' << cell.z << " is set but not touched";
-                    else ASSERT_FALSE(cutOverlaps(p, cell, -1e-5)) << "triangle " << t / 3 << ", cell " << cell.x << ' ' << cell.y << ' ' << cell.z << " is missing";
+                    if (set)
+                        ASSERT_TRUE(cutOverlaps(p, cell, 1e-5))
+                            << "triangle " << t / 3 << ", cell " << cell.x << ' ' << cell.y << ' ' << cell.z << " is set but not touched";
+                    else
+                        ASSERT_FALSE(cutOverlaps(p, cell, -1e-5))
+                            << "triangle " << t / 3 << ", cell " << cell.x << ' ' << cell.y << ' ' << cell.z << " is missing";
                 }
         ASSERT_EQ(bricks.cells(), seen) << "cells far from the triangle";
     }
 }
 
 TEST(Rasterise, randomTrianglesFillTouchedCells) {
-    expectExact(randomSoup(600, 4.0f, 0.3f, 1), 0.1);    // a few cells
-    expectExact(randomSoup(150, 20.0f, 3.0f, 2), 0.1);   // tens of cells
+    expectExact(randomSoup(600, 4.0f, 0.3f, 1), 0.1);      // a few cells
+    expectExact(randomSoup(150, 20.0f, 3.0f, 2), 0.1);     // tens of cells
     expectExact(randomSoup(150, 2000.0f, 1.0f, 3), 0.05);  // far from the origin
 }
 
@@ -94,7 +98,8 @@ TEST(Rasterise, thinShellsAreWatertight) {
         Soup ball;
         const auto point = [&](int i, int k) {
             const float up = kPi * float(i) / float(segments), around = 2.0f * kPi * float(k) / float(segments);
-            return glm::vec3(0.03f, -0.21f, 0.11f) + 1.3f * glm::vec3(std::sin(up) * std::cos(around), std::cos(up), std::sin(up) * std::sin(around));
+            return glm::vec3(0.03f, -0.21f, 0.11f) +
+                   1.3f * glm::vec3(std::sin(up) * std::cos(around), std::cos(up), std::sin(up) * std::sin(around));
         };
         for (int i = 0; i < segments; ++i)
             for (int k = 0; k < segments; ++k) {
@@ -129,7 +134,8 @@ TEST(Rasterise, anyThreadCountGivesTheSameCells) {
     voxel::BrickSet together, alone;
     EXPECT_EQ(voxel::rasterise(soup.triangles(), 0.1, together).triangles, 50000u);
     for (size_t first = 0; first < soup.indices.size(); first += 3000)
-        voxel::rasterise({soup.positions, std::span(soup.indices).subspan(first, std::min<size_t>(3000, soup.indices.size() - first))}, 0.1, alone);
+        voxel::rasterise(
+            {soup.positions, std::span(soup.indices).subspan(first, std::min<size_t>(3000, soup.indices.size() - first))}, 0.1, alone);
     EXPECT_EQ(together.cells(), alone.cells());
     EXPECT_EQ(cellsOf(together), cellsOf(alone));
 }

@@ -65,7 +65,8 @@ inline Cells cellsOf(const voxel::BrickSet& bricks) {
         for (int x = 0; x < 8; ++x)
             for (int y = 0; y < 8; ++y)
                 for (int z = 0; z < 8; ++z)
-                    if (bricks[i].test(x, y, z)) cells.insert({bricks.place(i).x * 8 + x, bricks.place(i).y * 8 + y, bricks.place(i).z * 8 + z});
+                    if (bricks[i].test(x, y, z))
+                        cells.insert({bricks.place(i).x * 8 + x, bricks.place(i).y * 8 + y, bricks.place(i).z * 8 + z});
     return cells;
 }
 

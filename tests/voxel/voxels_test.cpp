@@ -74,7 +74,8 @@ TEST(Voxels, changesAddUpToACompleteVoxelization) {
         if (step == 6) dropped = world.add(instanceOf(turningCube(), {-0.5f, 0.6f, 0.8f}));
         if (step == 9) world.instances().back().placement = glm::translate(glm::mat4(1.0f), {0.3f, 0.4f, 0.5f});
         if (step == 14) world.remove(dropped);
-        if (step == 18) world.instances()[0].placement = glm::rotate(glm::mat4(1.0f), 0.2f, glm::vec3(1, 0, 0));  // the floor, static so far
+        if (step == 18)
+            world.instances()[0].placement = glm::rotate(glm::mat4(1.0f), 0.2f, glm::vec3(1, 0, 0));  // the floor, static so far
         const glm::vec3 eye(3.0f * std::sin(0.7f * float(step)), 1.0f, 0.4f * float(step));
         copy.apply(voxels.update(world, time, eye, Voxels::Wait::exact));
         // From step 18 on a complete voxelization assigns the floor to another set, so only the number of cells is compared.

@@ -12,7 +12,8 @@ using voxel::Window;
 
 // A world of many different bricks.
 void noise(const glm::ivec3& place, Brick& out) {
-    uint64_t h = uint64_t(uint32_t(place.x) + 1) * 73856093u ^ (uint64_t(uint32_t(place.y)) * 19349663u << 20) ^ (uint64_t(uint32_t(place.z)) * 83492791u << 32);
+    uint64_t h = uint64_t(uint32_t(place.x) + 1) * 73856093u ^ (uint64_t(uint32_t(place.y)) * 19349663u << 20) ^
+                 (uint64_t(uint32_t(place.z)) * 83492791u << 32);
     for (uint64_t& word : out.words) word |= h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull;
 }
 

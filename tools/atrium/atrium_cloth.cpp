@@ -14,13 +14,12 @@ namespace {
 constexpr float kTau = glm::two_pi<float>();
 
 /// A sheet of columns x rows quads, shaped by a function of the unit square.
-Mesh makeSheet(int columns, int rows, const std::function<glm::vec3(glm::vec2)>& shape)
-{
+Mesh makeSheet(int columns, int rows, const std::function<glm::vec3(glm::vec2)>& shape) {
     Mesh mesh;
     for (int row = 0; row <= rows; ++row)
         for (int column = 0; column <= columns; ++column) {
-            const glm::vec2 uv(static_cast<float>(column) / static_cast<float>(columns),
-                               static_cast<float>(row) / static_cast<float>(rows));
+            const glm::vec2 uv(
+                static_cast<float>(column) / static_cast<float>(columns), static_cast<float>(row) / static_cast<float>(rows));
             mesh.addVertex(shape(uv), uv);
         }
     const auto stride = static_cast<std::uint32_t>(columns + 1);
@@ -34,18 +33,16 @@ Mesh makeSheet(int columns, int rows, const std::function<glm::vec3(glm::vec2)>&
 }
 
 /// Two targets a quarter wave apart; weights that run round a circle make a travelling wave.
-Geometry withWaves(Mesh mesh, const std::function<glm::vec3(glm::vec3, float)>& wave)
-{
+Geometry withWaves(Mesh mesh, const std::function<glm::vec3(glm::vec3, float)>& wave) {
     Geometry geometry{std::move(mesh), {}, {}};
     for (float phase : {0.0f, 0.25f * kTau})
         geometry.morphs.push_back(makeMorph(geometry.mesh, [&](glm::vec3 p) { return p + wave(p, phase); }));
     return geometry;
 }
 
-} // namespace
+}  // namespace
 
-Geometry makeBanner(float width, float height)
-{
+Geometry makeBanner(float width, float height) {
     Mesh mesh = makeSheet(28, 30, [&](glm::vec2 uv) {
         const float x = width * (uv.x - 0.5f);
         // Pleats gathered at the rod that open towards the hem, which dips to a point.
@@ -64,16 +61,14 @@ Geometry makeBanner(float width, float height)
     });
 }
 
-Geometry makeBannerRod(float width)
-{
+Geometry makeBannerRod(float width) {
     Mesh mesh;
     const float half = 0.5f * width + 0.1f;
     mesh.append(cylinder(0.02f, 2.0f * half, 0.004f, 10), translation({half, 0.012f, 0}) * rotation(90, {0, 0, 1}));
     for (float side : {-1.0f, 1.0f}) {
         mesh.append(sphere(0.04f, 10, 6), translation({side * half, 0.012f, 0}));
         // The bracket back to the wall.
-        mesh.append(chamferBox({-0.016f, -0.012f, -0.42f}, {0.016f, 0.032f, 0.02f}, 0.005f),
-                    translation({side * (half - 0.06f), 0, 0}));
+        mesh.append(chamferBox({-0.016f, -0.012f, -0.42f}, {0.016f, 0.032f, 0.02f}, 0.005f), translation({side * (half - 0.06f), 0, 0}));
     }
     mesh.setMaterial(kIron);
     boxMapTexcoords(mesh, 1.0f);
@@ -81,8 +76,7 @@ Geometry makeBannerRod(float width)
     return {mesh, {}, {}};
 }
 
-Geometry makeAwning(float width, float span, float sag)
-{
+Geometry makeAwning(float width, float span, float sag) {
     Mesh mesh = makeSheet(20, 48, [&](glm::vec2 uv) {
         const float along = 2.0f * uv.y - 1.0f;
         // Two swags between three ropes: at the sides and in the middle.
@@ -90,9 +84,7 @@ Geometry makeAwning(float width, float span, float sag)
         const float gather = 1.0f - 0.22f * swag;
         const float folds = 0.05f * std::sin(kTau * 3.0f * uv.x) * (1.0f - 0.6f * swag);
         const float edge = (2.0f * uv.x - 1.0f) * (2.0f * uv.x - 1.0f);
-        return glm::vec3(width * (uv.x - 0.5f) * gather,
-                         -sag * swag + folds - 0.22f * edge * (0.35f + 0.65f * swag),
-                         0.5f * span * along);
+        return glm::vec3(width * (uv.x - 0.5f) * gather, -sag * swag + folds - 0.22f * edge * (0.35f + 0.65f * swag), 0.5f * span * along);
     });
     return withWaves(std::move(mesh), [=](glm::vec3 p, float phase) {
         const float along = 2.0f * p.z / span;
@@ -103,4 +95,4 @@ Geometry makeAwning(float width, float span, float sag)
     });
 }
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

@@ -21,13 +21,9 @@ constexpr int kFlutes = 14;
 constexpr int kPointsPerFlute = 4;
 
 /// The shaft narrows upwards along a gentle curve, so that it does not look pinched.
-float entasis(float t)
-{
-    return 1.0f - 0.16f * t * t;
-}
+float entasis(float t) { return 1.0f - 0.16f * t * t; }
 
-Ring flutedRing(float radius, float depth, float y)
-{
+Ring flutedRing(float radius, float depth, float y) {
     Ring ring;
     for (int i = 0; i < kFlutes * kPointsPerFlute; ++i) {
         const float angle = glm::two_pi<float>() * static_cast<float>(i) / (kFlutes * kPointsPerFlute);
@@ -39,20 +35,16 @@ Ring flutedRing(float radius, float depth, float y)
     return ring;
 }
 
-Mesh makeShaft(float low, float high)
-{
+Mesh makeShaft(float low, float high) {
     constexpr float kFluteDepth = 0.085f;
     constexpr float kFade = 0.07f;
     std::vector<Ring> rings;
-    const auto add = [&](float y, float depth) {
-        rings.push_back(flutedRing(kShaftRadius * entasis((y - low) / (high - low)), depth, y));
-    };
+    const auto add = [&](float y, float depth) { rings.push_back(flutedRing(kShaftRadius * entasis((y - low) / (high - low)), depth, y)); };
     rings.push_back(Ring(kFlutes * kPointsPerFlute, {0.0f, low, 0.0f}));
     add(low, 0.0f);
     add(low + kFade, 0.0f);
     constexpr int kMiddle = 3;
-    for (int i = 0; i <= kMiddle; ++i)
-        add(glm::mix(low + 1.6f * kFade, high - 1.6f * kFade, static_cast<float>(i) / kMiddle), kFluteDepth);
+    for (int i = 0; i <= kMiddle; ++i) add(glm::mix(low + 1.6f * kFade, high - 1.6f * kFade, static_cast<float>(i) / kMiddle), kFluteDepth);
     add(high - kFade, 0.0f);
     add(high, 0.0f);
     rings.push_back(Ring(kFlutes * kPointsPerFlute, {0.0f, high, 0.0f}));
@@ -60,8 +52,7 @@ Mesh makeShaft(float low, float high)
 }
 
 /// Leaves that stand out from the bell of the capital, in two rows.
-Mesh makeLeaves(float bottom, float radius)
-{
+Mesh makeLeaves(float bottom, float radius) {
     Mesh mesh;
     constexpr int kPerRow = 8;
     for (int row = 0; row < 2; ++row)
@@ -75,10 +66,8 @@ Mesh makeLeaves(float bottom, float radius)
                 const float curl = t * t * t;
                 const float width = 0.06f * std::sqrt(std::max(0.0f, 1.0f - curl));
                 const glm::vec3 spine(0.0f, bottom + height * (t - 0.25f * curl), radius + 0.015f + 0.075f * curl);
-                rings.push_back({spine + glm::vec3(0, 0, 0.02f),
-                                 spine + glm::vec3(width, 0, 0),
-                                 spine - glm::vec3(0, 0.012f * curl, 0.03f),
-                                 spine - glm::vec3(width, 0, 0)});
+                rings.push_back({spine + glm::vec3(0, 0, 0.02f), spine + glm::vec3(width, 0, 0), spine - glm::vec3(0, 0.012f * curl, 0.03f),
+                    spine - glm::vec3(width, 0, 0)});
             }
             const auto close = [](const Ring& ring) { return Ring(4, 0.25f * (ring[0] + ring[1] + ring[2] + ring[3])); };
             rings.insert(rings.begin(), close(rings.front()));
@@ -88,15 +77,11 @@ Mesh makeLeaves(float bottom, float radius)
     return mesh;
 }
 
-Mesh makePlinth(float y)
-{
-    return chamferBox({-kPlinthHalf, y, -kPlinthHalf}, {kPlinthHalf, y + kPlinthHeight, kPlinthHalf}, 0.012f);
-}
+Mesh makePlinth(float y) { return chamferBox({-kPlinthHalf, y, -kPlinthHalf}, {kPlinthHalf, y + kPlinthHeight, kPlinthHalf}, 0.012f); }
 
-} // namespace
+}  // namespace
 
-Geometry makeColumn(float height)
-{
+Geometry makeColumn(float height) {
     Mesh mesh;
     mesh.append(makePlinth(0.0f));
     // The Attic base: two rolls with a hollow between them.
@@ -119,24 +104,15 @@ Geometry makeColumn(float height)
     mesh.append(makeShaft(kBaseHeight - 0.006f, neck + 0.01f));
 
     const float top = r * entasis(1.0f);
-    const Profile bell{{0.0f, neck - 0.03f},
-                       {top + 0.008f, neck - 0.03f},
-                       {top + 0.028f, neck - 0.018f},
-                       {top + 0.028f, neck - 0.002f},
-                       {top + 0.004f, neck + 0.012f},
-                       {top + 0.01f, neck + 0.1f},
-                       {top + 0.03f, neck + 0.2f},
-                       {top + 0.075f, neck + 0.275f},
-                       {top + 0.1f, neck + 0.29f},
-                       {top + 0.1f, neck + 0.31f},
-                       {0.0f, neck + 0.312f}};
+    const Profile bell{{0.0f, neck - 0.03f}, {top + 0.008f, neck - 0.03f}, {top + 0.028f, neck - 0.018f}, {top + 0.028f, neck - 0.002f},
+        {top + 0.004f, neck + 0.012f}, {top + 0.01f, neck + 0.1f}, {top + 0.03f, neck + 0.2f}, {top + 0.075f, neck + 0.275f},
+        {top + 0.1f, neck + 0.29f}, {top + 0.1f, neck + 0.31f}, {0.0f, neck + 0.312f}};
     mesh.append(lathe(bell, 20));
     mesh.append(makeLeaves(neck + 0.012f, top));
     // Small scrolls under the corners of the abacus.
     for (int corner = 0; corner < 4; ++corner) {
         const glm::mat4 turn = rotation(45.0f + 90.0f * static_cast<float>(corner), {0, 1, 0});
-        mesh.append(cylinder(0.042f, 0.07f, 0.012f, 8),
-                    turn * translation({0.035f, neck + 0.258f, 0.3f}) * rotation(90, {0, 0, 1}));
+        mesh.append(cylinder(0.042f, 0.07f, 0.012f, 8), turn * translation({0.035f, neck + 0.258f, 0.3f}) * rotation(90, {0, 0, 1}));
     }
     mesh.append(chamferBox({-0.29f, neck + 0.3f, -0.29f}, {0.29f, neck + 0.355f, 0.29f}, 0.014f));
     mesh.append(chamferBox({-0.32f, neck + 0.35f, -0.32f}, {0.32f, height, 0.32f}, 0.014f));
@@ -145,8 +121,7 @@ Geometry makeColumn(float height)
     return {mesh, {}, {}};
 }
 
-Geometry makePier(float height)
-{
+Geometry makePier(float height) {
     Mesh mesh;
     constexpr float kHalf = 0.29f;
     mesh.append(chamferBox({-0.34f, 0.0f, -0.34f}, {0.34f, 0.16f, 0.34f}, 0.015f));
@@ -155,7 +130,7 @@ Geometry makePier(float height)
     // A raised panel on each face catches the light.
     for (int side = 0; side < 4; ++side)
         mesh.append(chamferBox({-0.18f, 0.45f, kHalf - 0.02f}, {0.18f, height - 0.42f, kHalf + 0.018f}, 0.012f),
-                    rotation(90.0f * static_cast<float>(side), {0, 1, 0}));
+            rotation(90.0f * static_cast<float>(side), {0, 1, 0}));
     mesh.append(chamferBox({-0.31f, height - 0.22f, -0.31f}, {0.31f, height - 0.12f, 0.31f}, 0.015f));
     mesh.append(chamferBox({-0.35f, height - 0.13f, -0.35f}, {0.35f, height, 0.35f}, 0.018f));
     boxMapTexcoords(mesh, 2.0f);
@@ -163,20 +138,18 @@ Geometry makePier(float height)
     return {mesh, {}, {}};
 }
 
-Geometry makeBaluster()
-{
+Geometry makeBaluster() {
     Mesh mesh;
-    const Profile turned{{0.0f, 0.115f},  {0.065f, 0.115f}, {0.065f, 0.165f}, {0.036f, 0.185f}, {0.052f, 0.23f},
-                         {0.072f, 0.3f},  {0.062f, 0.39f},  {0.036f, 0.51f},  {0.03f, 0.61f},   {0.036f, 0.66f},
-                         {0.058f, 0.69f}, {0.04f, 0.72f},   {0.06f, 0.795f},  {0.0f, 0.795f}};
+    const Profile turned{{0.0f, 0.115f}, {0.065f, 0.115f}, {0.065f, 0.165f}, {0.036f, 0.185f}, {0.052f, 0.23f}, {0.072f, 0.3f},
+        {0.062f, 0.39f}, {0.036f, 0.51f}, {0.03f, 0.61f}, {0.036f, 0.66f}, {0.058f, 0.69f}, {0.04f, 0.72f}, {0.06f, 0.795f},
+        {0.0f, 0.795f}};
     mesh.append(lathe(turned, 10));
     boxMapTexcoords(mesh, 2.0f);
     smoothNormals(mesh, 50.0f);
     return {mesh, {}, {}};
 }
 
-Geometry makeRail()
-{
+Geometry makeRail() {
     Mesh mesh;
     constexpr float kHalf = 0.5f * kBay - 0.2f;
     mesh.append(chamferBox({-kHalf, 0.0f, -0.11f}, {kHalf, 0.12f, 0.11f}, 0.012f));
@@ -188,4 +161,4 @@ Geometry makeRail()
     return {mesh, {}, {}};
 }
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

@@ -6,20 +6,7 @@
 namespace obscura::atrium {
 
 /// Material slots shared by every part of the atrium.
-enum Slot : std::uint32_t {
-    kStone,
-    kPlaster,
-    kTiles,
-    kDarkStone,
-    kWood,
-    kIron,
-    kTerracotta,
-    kSoil,
-    kLeaf,
-    kCloth,
-    kGlow,
-    kSlotCount
-};
+enum Slot : std::uint32_t { kStone, kPlaster, kTiles, kDarkStone, kWood, kIron, kTerracotta, kSoil, kLeaf, kCloth, kGlow, kSlotCount };
 
 // The plan: a court of whole bays, a walk all round it, then the outer wall.
 inline constexpr float kBay = 2.5f;
@@ -41,4 +28,4 @@ inline constexpr float kArchRadius = 0.93f;
 inline constexpr float kArchDepth = 0.5f;
 inline constexpr float kRoofTop = 10.0f;
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

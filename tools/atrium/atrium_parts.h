@@ -47,4 +47,4 @@ kit::Geometry makeBannerRod(float width);
 /// A cloth slung across the court along z, sagging from both ends at y = 0.
 kit::Geometry makeAwning(float width, float span, float sag);
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

@@ -24,8 +24,7 @@ struct Bay {
 };
 
 /// The bays along a rectangle whose sides lie at the given distances from the middle.
-std::vector<Bay> baysAlong(float halfX, float halfZ)
-{
+std::vector<Bay> baysAlong(float halfX, float halfZ) {
     std::vector<Bay> bays;
     for (int i = 0; i < kBaysLong; ++i) {
         const float x = -kCourtX + kBay * (static_cast<float>(i) + 0.5f);
@@ -62,8 +61,7 @@ private:
     std::vector<int> m_clothColours;
 };
 
-void Builder::addMaterials()
-{
+void Builder::addMaterials() {
     const int stone = m_scene.addImage("stone", paintStone());
     const int plaster = m_scene.addImage("plaster", paintPlaster());
     const int marble = m_scene.addImage("marble", paintMarble());
@@ -82,35 +80,26 @@ void Builder::addMaterials()
     add(kLeaf, {"leaf", glm::vec4(1.0f), 0.0f, 0.6f, leaf, true, true});
     add(kGlow, {"candle", srgb(0xFFF1D0), 0.0f, 0.6f, kNone, false, false, glm::vec3(1.0f, 0.72f, 0.36f)});
     for (std::uint32_t colour : {0xD0382Eu, 0x2F5FA8u, 0x2E8A57u, 0xD9902Au})
-        m_clothColours.push_back(m_scene.addMaterial({"cloth " + std::to_string(m_clothColours.size()),
-                                                      srgb(colour),
-                                                      0.0f,
-                                                      0.85f,
-                                                      cloth,
-                                                      false,
-                                                      true}));
+        m_clothColours.push_back(
+            m_scene.addMaterial({"cloth " + std::to_string(m_clothColours.size()), srgb(colour), 0.0f, 0.85f, cloth, false, true}));
     m_materials[kCloth] = m_clothColours.front();
 }
 
-int Builder::addMesh(const std::string& name, Geometry geometry)
-{
+int Builder::addMesh(const std::string& name, Geometry geometry) {
     return m_scene.addMesh(name, m_scene.addGeometry(std::move(geometry)), m_materials);
 }
 
-int Builder::place(int mesh, glm::vec3 at, float degrees, int parent)
-{
+int Builder::place(int mesh, glm::vec3 at, float degrees, int parent) {
     Node node;
     node.name = m_scene.meshes[mesh].name + " " + std::to_string(m_scene.nodes.size());
     node.parent = parent;
     node.translation = at;
-    if (degrees != 0.0f)
-        node.rotation = glm::angleAxis(glm::radians(degrees), kUp);
+    if (degrees != 0.0f) node.rotation = glm::angleAxis(glm::radians(degrees), kUp);
     node.mesh = mesh;
     return m_scene.addNode(node);
 }
 
-void Builder::addShell()
-{
+void Builder::addShell() {
     place(addMesh("court floor", makeCourtFloor()), {});
     place(addMesh("walk floor", makeWalkFloor()), {});
     place(addMesh("outer walls", makeOuterWalls()), {});
@@ -122,8 +111,7 @@ void Builder::addShell()
     place(addMesh("upper cornice", makeCornice(kRoofTop, 0.34f)), {});
 }
 
-void Builder::addArcades()
-{
+void Builder::addArcades() {
     const int arch = addMesh("arch", makeArch(false));
     const int blindArch = addMesh("blind arch", makeArch(true));
     const int rail = addMesh("rail", makeRail());
@@ -137,22 +125,18 @@ void Builder::addArcades()
         for (int i = 0; i <= kBaysLong; ++i)
             for (float side : {-1.0f, 1.0f}) {
                 const bool isCorner = i == 0 || i == kBaysLong;
-                place(isCorner ? pier : column,
-                      {-kCourtX + kBay * static_cast<float>(i), floor, side * kCourtZ});
+                place(isCorner ? pier : column, {-kCourtX + kBay * static_cast<float>(i), floor, side * kCourtZ});
             }
         for (int i = 1; i < kBaysShort; ++i)
-            for (float side : {-1.0f, 1.0f})
-                place(column, {side * kCourtX, floor, -kCourtZ + kBay * static_cast<float>(i)});
+            for (float side : {-1.0f, 1.0f}) place(column, {side * kCourtX, floor, -kCourtZ + kBay * static_cast<float>(i)});
 
         for (const Bay& bay : baysAlong(kCourtX, kCourtZ)) {
             place(arch, bay.place + kUp * (floor + height), bay.degrees);
-            const glm::vec3 face =
-                glm::angleAxis(glm::radians(bay.degrees), kUp) * glm::vec3(0, 0, 0.5f * kArchDepth);
+            const glm::vec3 face = glm::angleAxis(glm::radians(bay.degrees), kUp) * glm::vec3(0, 0, 0.5f * kArchDepth);
             place(brackets, bay.place + face + kUp * (storey == 0 ? kStoreyHeight : kRoofTop), bay.degrees);
         }
         // The outer wall repeats the arcade in relief.
-        for (const Bay& bay : baysAlong(kOuterX, kOuterZ))
-            place(blindArch, bay.place + kUp * (floor + height), bay.degrees);
+        for (const Bay& bay : baysAlong(kOuterX, kOuterZ)) place(blindArch, bay.place + kUp * (floor + height), bay.degrees);
     }
     for (const Bay& bay : baysAlong(kCourtX, kCourtZ)) {
         const glm::vec3 foot = bay.place + kUp * kStoreyHeight;
@@ -163,15 +147,14 @@ void Builder::addArcades()
     }
 }
 
-void Builder::addFurnishings()
-{
+void Builder::addFurnishings() {
     const int pot = addMesh("pot", makePot());
     const int plant = addMesh("plant", makePlant());
     const int bench = addMesh("bench", makeBench());
     constexpr float kPotX = kCourtX - 0.9f;
     constexpr float kPotZ = kCourtZ - 0.85f;
-    const glm::vec2 spots[] = {{-kPotX, -kPotZ}, {kPotX, -kPotZ}, {-kPotX, kPotZ}, {kPotX, kPotZ}, {-5.0f, -kPotZ},
-                               {5.0f, -kPotZ},   {-5.0f, kPotZ},  {5.0f, kPotZ},   {-12.0f, -5.8f}, {12.0f, 5.8f}};
+    const glm::vec2 spots[] = {{-kPotX, -kPotZ}, {kPotX, -kPotZ}, {-kPotX, kPotZ}, {kPotX, kPotZ}, {-5.0f, -kPotZ}, {5.0f, -kPotZ},
+        {-5.0f, kPotZ}, {5.0f, kPotZ}, {-12.0f, -5.8f}, {12.0f, 5.8f}};
     for (glm::vec2 spot : spots) {
         const float turn = 360.0f * hash01(static_cast<std::uint32_t>(m_scene.nodes.size()));
         place(pot, {spot.x, 0, spot.y}, turn);
@@ -183,8 +166,7 @@ void Builder::addFurnishings()
     }
 }
 
-void Builder::addLantern()
-{
+void Builder::addLantern() {
     // An iron bar across the court carries the chain.
     constexpr float kHangHeight = 9.35f;
     constexpr int kLinks = 12;
@@ -204,19 +186,16 @@ void Builder::addLantern()
     hook.translation = {0.0f, kHangHeight, 0.0f};
     const int swing = m_scene.addNode(hook);
     const int links = addMesh("chain", makeChainLink());
-    for (int i = 0; i < kLinks; ++i)
-        place(links, kUp * (-kLinkStep * static_cast<float>(i)), 0.0f, swing);
+    for (int i = 0; i < kLinks; ++i) place(links, kUp * (-kLinkStep * static_cast<float>(i)), 0.0f, swing);
     place(addMesh("lantern", makeLantern()), kUp * (-kLinkStep * kLinks + 0.01f), 0.0f, swing);
     // A pendulum of this length takes a little over 3 s; three swings fill the loop.
     m_scene.animateRotation(swing, sampleTimes(kDuration, 30.0f), [](float time) {
         const float angle = kTau * 3.0f * time / kDuration;
-        return glm::angleAxis(0.045f * std::sin(angle), glm::vec3(0, 0, 1)) *
-               glm::angleAxis(0.02f * std::cos(angle), glm::vec3(1, 0, 0));
+        return glm::angleAxis(0.045f * std::sin(angle), glm::vec3(0, 0, 1)) * glm::angleAxis(0.02f * std::cos(angle), glm::vec3(1, 0, 0));
     });
 }
 
-void Builder::sway(int node, int turns, float phase, Interpolation interpolation)
-{
+void Builder::sway(int node, int turns, float phase, Interpolation interpolation) {
     const float speed = kTau * static_cast<float>(turns) / kDuration;
     const auto weights = [&](float time) {
         const float gust = 0.75f + 0.25f * std::sin(kTau * time / kDuration + phase);
@@ -234,8 +213,7 @@ void Builder::sway(int node, int turns, float phase, Interpolation interpolation
             const std::vector<float> before = weights(at - kStep);
             const std::vector<float> value = weights(at);
             const std::vector<float> after = weights(at + kStep);
-            const std::vector<float> slope{(after[0] - before[0]) / (2.0f * kStep),
-                                           (after[1] - before[1]) / (2.0f * kStep)};
+            const std::vector<float> slope{(after[0] - before[0]) / (2.0f * kStep), (after[1] - before[1]) / (2.0f * kStep)};
             for (const std::vector<float>& part : {slope, value, slope})
                 channel.values.insert(channel.values.end(), part.begin(), part.end());
         }
@@ -247,8 +225,7 @@ void Builder::sway(int node, int turns, float phase, Interpolation interpolation
     std::copy_n(values.begin(), keySize, values.end() - static_cast<std::ptrdiff_t>(keySize));
 }
 
-void Builder::addBanners(int geometry, int rod, glm::vec3 at, float degrees, int index)
-{
+void Builder::addBanners(int geometry, int rod, glm::vec3 at, float degrees, int index) {
     std::vector<int> materials = m_materials;
     const auto colour = static_cast<std::size_t>(index) % m_clothColours.size();
     materials[kCloth] = m_clothColours[colour];
@@ -259,8 +236,7 @@ void Builder::addBanners(int geometry, int rod, glm::vec3 at, float degrees, int
     sway(node, turns, 1.7f * static_cast<float>(index), Interpolation::Linear);
 }
 
-void Builder::addCloth()
-{
+void Builder::addCloth() {
     constexpr float kWidth = 1.25f;
     constexpr float kRodHeight = kStoreyHeight - 0.62f;
     const int geometry = m_scene.addGeometry(makeBanner(kWidth, 2.3f));
@@ -281,8 +257,7 @@ void Builder::addCloth()
     }
 }
 
-Scene Builder::build()
-{
+Scene Builder::build() {
     m_scene.name = "atrium";
     m_scene.animation = "walk";
     addMaterials();
@@ -295,11 +270,8 @@ Scene Builder::build()
     return std::move(m_scene);
 }
 
-} // namespace
+}  // namespace
 
-Scene buildScene()
-{
-    return Builder().build();
-}
+Scene buildScene() { return Builder().build(); }
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

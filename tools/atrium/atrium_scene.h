@@ -11,4 +11,4 @@ inline constexpr float kDuration = 10.0f;
 /// The whole atrium, animated.
 kit::Scene buildScene();
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

@@ -15,21 +15,18 @@ namespace {
 constexpr float kFaceX = kCourtX - 0.5f * kArchDepth;
 constexpr float kFaceZ = kCourtZ - 0.5f * kArchDepth;
 
-Ring rectangle(float halfX, float halfZ, float y)
-{
+Ring rectangle(float halfX, float halfZ, float y) {
     return {{-halfX, y, halfZ}, {halfX, y, halfZ}, {halfX, y, -halfZ}, {-halfX, y, -halfZ}};
 }
 
-Geometry finished(Mesh mesh, float metresPerTile)
-{
+Geometry finished(Mesh mesh, float metresPerTile) {
     boxMapTexcoords(mesh, metresPerTile);
     smoothNormals(mesh, 38.0f);
     return {std::move(mesh), {}, {}};
 }
 
 /// Tiles with bevelled edges over a bed that shows in the grooves.
-void addTiles(Mesh& mesh, glm::vec2 low, glm::vec2 high, int columns, int rows, bool chequered)
-{
+void addTiles(Mesh& mesh, glm::vec2 low, glm::vec2 high, int columns, int rows, bool chequered) {
     constexpr float kGroove = 0.004f;
     constexpr float kBevel = 0.008f;
     constexpr float kDepth = 0.01f;
@@ -42,8 +39,7 @@ void addTiles(Mesh& mesh, glm::vec2 low, glm::vec2 high, int columns, int rows, 
             const glm::vec2 top = foot - kBevel;
             const auto at = [&](glm::vec2 half, float y) {
                 Ring ring = rectangle(half.x, half.y, y);
-                for (glm::vec3& p : ring)
-                    p += glm::vec3(centre.x, 0.0f, centre.y);
+                for (glm::vec3& p : ring) p += glm::vec3(centre.x, 0.0f, centre.y);
                 return ring;
             };
             const std::array<Ring, 3> rings{at(foot, -kDepth), at(top, 0.0f), Ring(4, {centre.x, 0.0f, centre.y})};
@@ -51,25 +47,19 @@ void addTiles(Mesh& mesh, glm::vec2 low, glm::vec2 high, int columns, int rows, 
             tile.setMaterial(chequered && (column + row) % 2 == 0 ? kDarkStone : kTiles);
             mesh.append(tile);
         }
-    mesh.addFace({low.x, -kDepth, high.y},
-                 {high.x, -kDepth, high.y},
-                 {high.x, -kDepth, low.y},
-                 {low.x, -kDepth, low.y},
-                 kDarkStone);
+    mesh.addFace({low.x, -kDepth, high.y}, {high.x, -kDepth, high.y}, {high.x, -kDepth, low.y}, {low.x, -kDepth, low.y}, kDarkStone);
 }
 
-} // namespace
+}  // namespace
 
-Geometry makeCourtFloor()
-{
+Geometry makeCourtFloor() {
     constexpr int kTilesPerBay = 3;
     Mesh mesh;
     addTiles(mesh, {-kCourtX, -kCourtZ}, {kCourtX, kCourtZ}, kBaysLong * kTilesPerBay, kBaysShort * kTilesPerBay, true);
     return finished(std::move(mesh), 1.6f);
 }
 
-Geometry makeWalkFloor()
-{
+Geometry makeWalkFloor() {
     constexpr int kAcross = 4;
     Mesh mesh;
     for (float side : {-1.0f, 1.0f}) {
@@ -81,15 +71,11 @@ Geometry makeWalkFloor()
     return finished(std::move(mesh), 1.6f);
 }
 
-Geometry makeSlab(float bottom, float top)
-{
+Geometry makeSlab(float bottom, float top) {
     // The slab runs a little way into the outer wall, so that no crack of light shows.
     constexpr float kIntoWall = 0.1f;
-    const std::array<Ring, 5> rings{rectangle(kFaceX, kFaceZ, bottom),
-                                    rectangle(kOuterX + kIntoWall, kOuterZ + kIntoWall, bottom),
-                                    rectangle(kOuterX + kIntoWall, kOuterZ + kIntoWall, top),
-                                    rectangle(kFaceX, kFaceZ, top),
-                                    rectangle(kFaceX, kFaceZ, bottom)};
+    const std::array<Ring, 5> rings{rectangle(kFaceX, kFaceZ, bottom), rectangle(kOuterX + kIntoWall, kOuterZ + kIntoWall, bottom),
+        rectangle(kOuterX + kIntoWall, kOuterZ + kIntoWall, top), rectangle(kFaceX, kFaceZ, top), rectangle(kFaceX, kFaceZ, bottom)};
     Mesh mesh = loft(rings);
     mesh.setMaterial(kPlaster);
     Mesh beams;
@@ -118,15 +104,13 @@ Geometry makeSlab(float bottom, float top)
     return finished(std::move(mesh), 2.0f);
 }
 
-Geometry makeOuterWalls()
-{
+Geometry makeOuterWalls() {
     constexpr float kFoot = -0.4f;
     constexpr float kTop = kRoofTop + 0.45f;
     const std::array<Ring, 5> rings{rectangle(kOuterX, kOuterZ, kFoot),
-                                    rectangle(kOuterX + kWallThickness, kOuterZ + kWallThickness, kFoot),
-                                    rectangle(kOuterX + kWallThickness, kOuterZ + kWallThickness, kTop),
-                                    rectangle(kOuterX, kOuterZ, kTop),
-                                    rectangle(kOuterX, kOuterZ, kFoot)};
+        rectangle(kOuterX + kWallThickness, kOuterZ + kWallThickness, kFoot),
+        rectangle(kOuterX + kWallThickness, kOuterZ + kWallThickness, kTop), rectangle(kOuterX, kOuterZ, kTop),
+        rectangle(kOuterX, kOuterZ, kFoot)};
     Mesh mesh = loft(rings);
     mesh.setMaterial(kPlaster);
     // The ground beneath, which closes the building from below.
@@ -161,39 +145,26 @@ Geometry makeOuterWalls()
     return finished(std::move(mesh), 2.0f);
 }
 
-Geometry makeCornice(float y, float projection)
-{
+Geometry makeCornice(float y, float projection) {
     struct Step {
         float out;
         float down;
     };
-    const std::array<Step, 12> steps{Step{-0.1f, 0.0f},
-                                     {projection - 0.015f, 0.0f},
-                                     {projection, 0.015f},
-                                     {projection, 0.06f},
-                                     {projection - 0.03f, 0.085f},
-                                     {0.6f * projection, 0.12f},
-                                     {0.45f * projection, 0.17f},
-                                     {0.4f * projection, 0.18f},
-                                     {0.4f * projection, 0.23f},
-                                     {0.15f * projection, 0.29f},
-                                     {0.12f * projection, 0.42f},
-                                     {-0.1f, 0.44f}};
+    const std::array<Step, 12> steps{Step{-0.1f, 0.0f}, {projection - 0.015f, 0.0f}, {projection, 0.015f}, {projection, 0.06f},
+        {projection - 0.03f, 0.085f}, {0.6f * projection, 0.12f}, {0.45f * projection, 0.17f}, {0.4f * projection, 0.18f},
+        {0.4f * projection, 0.23f}, {0.15f * projection, 0.29f}, {0.12f * projection, 0.42f}, {-0.1f, 0.44f}};
     std::vector<Ring> rings;
-    for (const Step& step : steps)
-        rings.push_back(rectangle(kFaceX - step.out, kFaceZ - step.out, y - step.down));
+    for (const Step& step : steps) rings.push_back(rectangle(kFaceX - step.out, kFaceZ - step.out, y - step.down));
     rings.push_back(rings.front());
     return finished(loft(rings), 2.0f);
 }
 
-Geometry makeBrackets()
-{
+Geometry makeBrackets() {
     constexpr int kPerBay = 3;
     Mesh mesh;
     // Seen from the side: a console that swells towards the cornice it carries.
-    const Profile side{{-0.05f, -0.36f}, {0.03f, -0.36f}, {0.07f, -0.33f},  {0.085f, -0.27f},
-                       {0.13f, -0.22f},  {0.19f, -0.19f}, {0.2f, -0.12f},   {0.2f, -0.09f},
-                       {-0.05f, -0.09f}};
+    const Profile side{{-0.05f, -0.36f}, {0.03f, -0.36f}, {0.07f, -0.33f}, {0.085f, -0.27f}, {0.13f, -0.22f}, {0.19f, -0.19f},
+        {0.2f, -0.12f}, {0.2f, -0.09f}, {-0.05f, -0.09f}};
     for (int i = 0; i < kPerBay; ++i) {
         const float x = kBay * ((static_cast<float>(i) + 0.5f) / kPerBay - 0.5f);
         mesh.append(bevelledPrism(side, -0.06f, 0.06f, 0.008f), translation({x, 0, 0}) * rotation(-90, {0, 1, 0}));
@@ -201,4 +172,4 @@ Geometry makeBrackets()
     return finished(std::move(mesh), 2.0f);
 }
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

@@ -14,10 +14,9 @@ namespace {
 
 constexpr float kTau = glm::two_pi<float>();
 
-} // namespace
+}  // namespace
 
-Image paintStone()
-{
+Image paintStone() {
     return paint(256, 256, [](glm::vec2 uv) {
         const float beds = fractalNoise({uv.x * 3.0f, uv.y * 14.0f}, {3, 14}, 5, 3);
         const float grain = fractalNoise(uv * 48.0f, {48, 48}, 9, 2);
@@ -26,8 +25,7 @@ Image paintStone()
     });
 }
 
-Image paintPlaster()
-{
+Image paintPlaster() {
     return paint(256, 256, [](glm::vec2 uv) {
         const float stain = fractalNoise(uv * 4.0f, {4, 4}, 21, 4);
         const float grain = fractalNoise(uv * 64.0f, {64, 64}, 3, 2);
@@ -36,8 +34,7 @@ Image paintPlaster()
     });
 }
 
-Image paintMarble()
-{
+Image paintMarble() {
     return paint(256, 256, [](glm::vec2 uv) {
         const float warp = fractalNoise(uv * 5.0f, {5, 5}, 40, 4);
         const float vein = 1.0f - std::abs(std::sin(kTau * (uv.x + uv.y + 1.4f * warp)));
@@ -46,8 +43,7 @@ Image paintMarble()
     });
 }
 
-Image paintCloth()
-{
+Image paintCloth() {
     return paint(256, 512, [](glm::vec2 uv) {
         const float weave = 0.94f + 0.06f * std::sin(kTau * 64.0f * uv.x) * std::sin(kTau * 128.0f * uv.y);
         const float inset = std::min({uv.x, 1.0f - uv.x, 2.0f * uv.y, 2.0f * (1.0f - uv.y)});
@@ -61,8 +57,7 @@ Image paintCloth()
     });
 }
 
-Image paintLeaf()
-{
+Image paintLeaf() {
     return paint(128, 512, [](glm::vec2 uv) {
         constexpr float kLeaflets = 11.0f;
         const float across = std::abs(uv.x - 0.5f) * 2.0f;
@@ -82,4 +77,4 @@ Image paintLeaf()
     });
 }
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

@@ -16,4 +16,4 @@ kit::Image paintCloth();
 /// A frond of leaflets; alpha cuts it out.
 kit::Image paintLeaf();
 
-} // namespace obscura::atrium
+}  // namespace obscura::atrium

@@ -75,19 +75,22 @@ public:
     }
 
     std::vector<Row> measure() {
-        for (const evaluate::Candidate& candidate : m_options.what.candidates) m_machine.expectMethod(*m_shots.front().library, candidate.info());
+        for (const evaluate::Candidate& candidate : m_options.what.candidates)
+            m_machine.expectMethod(*m_shots.front().library, candidate.info());
         const uint32_t rounds = m_options.what.rounds;
         size_t done = 0, left = 0;
         for (const Cell& cell : m_cells) left += rounds - cell.row.rounds.size();
-        const std::vector<Ground> grounds = std::any_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.rounds.empty(); }) ? look() : std::vector<Ground>();
+        const std::vector<Ground> grounds = std::any_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.rounds.empty(); })
+                                                ? look()
+                                                : std::vector<Ground>();
         {
             app::Progress progress("timing " + m_title, left);
             for (uint32_t round = 0; round < rounds; ++round)
                 for (Cell& cell : m_cells) {
                     if (cell.row.rounds.size() > round) continue;
                     progress.at(done++, cell.row.label());
-                    const evaluate::Drawing drawing =
-                        evaluate::draw(m_machine, m_shots[cell.shot], *cell.candidate, cell.falloff->falloff, m_options.what.warmUp, m_options.what.frames);
+                    const evaluate::Drawing drawing = evaluate::draw(m_machine, m_shots[cell.shot], *cell.candidate, cell.falloff->falloff,
+                        m_options.what.warmUp, m_options.what.frames);
                     if (round == 0) judge(cell, drawing, grounds[cell.shot]);
                     cell.add(drawing);
                     save(done == left);
@@ -126,10 +129,20 @@ private:
     std::string key() const {
         scene::Hash hash;
         const evaluate::Options& what = m_options.what;
-        hash.add(kMeasure).add(m_machine.deviceName()).add(what.frames).add(what.warmUp).add(what.guard).add(what.rays.rays).add(what.rays.seed);
+        hash.add(kMeasure)
+            .add(m_machine.deviceName())
+            .add(what.frames)
+            .add(what.warmUp)
+            .add(what.guard)
+            .add(what.rays.rays)
+            .add(what.rays.seed);
         hash.add(int(what.reference.world)).add(int(what.reference.screen)).add(m_loaded.triangles());
         for (const Cell& cell : m_cells) {
-            hash.add(cell.row.name()).add(what.voxels.cells).add(what.voxels.cellSize).add(int(what.voxels.voxelizer)).add(int(what.voxels.structure));
+            hash.add(cell.row.name())
+                .add(what.voxels.cells)
+                .add(what.voxels.cellSize)
+                .add(int(what.voxels.voxelizer))
+                .add(int(what.voxels.structure));
             for (const float value : cell.candidate->values.values()) hash.add(value);
         }
         for (const evaluate::Shot& shot : m_shots) hash.add(shot.frame.depth.data(), shot.frame.depth.size() * sizeof(float));
@@ -140,7 +153,7 @@ private:
 
     // References and baseline memory of a shot's cells.
     struct Ground {
-        uint64_t bytes;                // of the frame without obscurance
+        uint64_t bytes;  // of the frame without obscurance
         std::vector<evaluate::ShotReference> references;
     };
     std::vector<Ground> look() {
@@ -166,11 +179,13 @@ private:
     // Flicker over the scene's flythrough, if it has one; the same for all cameras and sizes.
     void flicker() {
         const evaluate::SceneFile file = evaluate::findScene(m_scene);
-        if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); })) return;
+        if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); }))
+            return;
         for (const evaluate::FalloffChoice& falloff : m_options.what.falloffs) {
             flythrough::Settings settings = *m_options.flicker;
             settings.falloff = falloff;
-            flythrough::Flight flight(m_machine, flythrough::findScript(fmt::format("{}@{:g}", file.flythrough->string(), kFlickerStart)), settings);
+            flythrough::Flight flight(
+                m_machine, flythrough::findScript(fmt::format("{}@{:g}", file.flythrough->string(), kFlickerStart)), settings);
             for (const evaluate::Candidate& candidate : m_options.what.candidates) {
                 std::optional<Flicker> found;
                 for (Cell& cell : m_cells) {
@@ -216,7 +231,8 @@ private:
                 cells[i].own = line.at("own").get<std::vector<double>>();
                 cells[i].rest = line.at("rest").get<std::vector<double>>();
                 if (line.contains("times"))
-                    for (const Json& pass : line["times"]) cells[i].passes.push_back({pass.at("name"), pass.at("values").get<std::vector<double>>()});
+                    for (const Json& pass : line["times"])
+                        cells[i].passes.push_back({pass.at("name"), pass.at("values").get<std::vector<double>>()});
                 if (cells[i].row.rounds.size() > m_options.what.rounds) return;
             }
             m_cells = std::move(cells);
@@ -248,7 +264,9 @@ Results measure(const Options& options, evaluate::Machine& machine) {
     results.command = options.command;
     results.guard = what.guard;
     results.frames = what.frames, results.warmUp = what.warmUp, results.rounds = what.rounds, results.rays = what.rays.rays;
-    if (options.flicker) results.flickerFrames = options.flicker->length, results.flickerWidth = options.flicker->size.x, results.flickerHeight = options.flicker->size.y;
+    if (options.flicker)
+        results.flickerFrames = options.flicker->length, results.flickerWidth = options.flicker->size.x,
+        results.flickerHeight = options.flicker->size.y;
     for (size_t i = 0; i < scenes.size(); ++i) {
         const std::string title = fmt::format("{} ({}/{})", fs::path(scenes[i]).stem().string(), i + 1, scenes.size());
         const std::vector<Row> rows = SceneBench(machine, options, scenes[i], title).measure();

@@ -12,14 +12,15 @@ std::string benchPage(const Results& results) {
     data["fronts"] = Json::array();
     for (const Front& front : fronts(results)) {
         Json line{{"scene", front.scene}, {"camera", front.camera}, {"falloff", front.falloff}, {"reference", front.reference},
-                  {"size", {front.width, front.height}}, {"rows", front.rows}, {"line", front.line}, {"both", front.both}, {"gaps", Json::array()}};
+            {"size", {front.width, front.height}}, {"rows", front.rows}, {"line", front.line}, {"both", front.both},
+            {"gaps", Json::array()}};
         for (const Gap& gap : front.gaps) line["gaps"].push_back(gapText(gap, results, front.reference));
         data["fronts"].push_back(std::move(line));
     }
     data["fits"] = Json::array();
     for (const Fit& fit : fits(results))
-        data["fits"].push_back({{"axis", fit.axis}, {"label", fit.label}, {"where", fit.where}, {"x", fit.x}, {"y", fit.y}, {"exponent", fit.exponent}, {"error", fit.error},
-                                {"factor", fit.factor}});
+        data["fits"].push_back({{"axis", fit.axis}, {"label", fit.label}, {"where", fit.where}, {"x", fit.x}, {"y", fit.y},
+            {"exponent", fit.exponent}, {"error", fit.error}, {"factor", fit.factor}});
     return app::page(kPageHtml, kPageCss, kPageJs, data.dump());
 }
 

@@ -8,11 +8,11 @@
 namespace obscura::bench {
 
 struct Tolerances {
-    double time = 0.05;                // relative growth of a row's time, in addition to its confidence interval
-    double error = 0.03, errorFloor = 0.0005;     // of eA: relative and absolute; a regression exceeds both
-    double flicker = 0.05, flickerFloor = 1e-4;   // of F_e
+    double time = 0.05;                          // relative growth of a row's time, in addition to its confidence interval
+    double error = 0.03, errorFloor = 0.0005;    // of eA: relative and absolute; a regression exceeds both
+    double flicker = 0.05, flickerFloor = 1e-4;  // of F_e
     double memory = 0.01;
-    bool absolute = false;             // compare milliseconds, not shares of a round
+    bool absolute = false;  // compare milliseconds, not shares of a round
     double confidence = 0.95;
     uint32_t resamples = 2000;
 };

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 
 std::string textOf(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw app::Complaint(fmt::format("--table {}: no such file; name a Markdown file with the lines {} and {}", file.string(), kTableBegin, kTableEnd));
+    if (!in)
+        throw app::Complaint(
+            fmt::format("--table {}: no such file; name a Markdown file with the lines {} and {}", file.string(), kTableBegin, kTableEnd));
     std::stringstream text;
     text << in.rdbuf();
     return text.str();

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/arguments.h"
 #include "app/complaint.h"
@@ -40,13 +40,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     what.rounds = 5;
     what.frames = 5;
     what.rays.rays = 256;
-    CLI::App cli{"Measures time, error against ray-traced references, flicker and memory of ambient-obscurance methods.",
-                 "obscura-bench"};
+    CLI::App cli{"Measures time, error against ray-traced references, flicker and memory of ambient-obscurance methods.", "obscura-bench"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(
-        "All methods, falloffs, cameras and sizes of a scene run in turns, round by round, so that drift of the machine affects all equally. Compare\n"
-        "times of one run only. Writes to --out: bench.html (error against time, scaling), bench.json, bench.csv, passes.csv, bench.md. An interrupted\n"
+        "All methods, falloffs, cameras and sizes of a scene run in turns, round by round, so that drift of the machine affects all "
+        "equally. Compare\n"
+        "times of one run only. Writes to --out: bench.html (error against time, scaling), bench.json, bench.csv, passes.csv, bench.md. An "
+        "interrupted\n"
         "run resumes with the same command.\n\n"
         "Examples:\n"
         "  obscura-bench --scene sponza,atrium --falloff quadratic:2,exponential:1 --out out/front       error against time\n"
@@ -54,7 +55,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-bench --method hybrid --set voxel_structure=dense,nanovdb --scene sponza              two voxel structures\n"
         "  obscura-bench --triangles 10000,100000,1000000 --size 320x180,640x360,1280x720 --flicker 0    scaling of time\n"
         "  obscura-bench --scene sponza --compare before/bench.json                                      regressions\n"
-        "  obscura-bench --from out/front/bench.json --table README.md                                   the table between README's markers");
+        "  obscura-bench --from out/front/bench.json --table README.md                                   the table between README's "
+        "markers");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     evaluate::CandidateOptions chosen;
     chosen.methods = {"all"};
@@ -65,26 +67,36 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     using evaluate::takeAll;
 
     cli.option_defaults()->group("Frames");
-    takeAll(cli.add_option("--scene", what.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas (default: all that are found)"));
-    takeAll(cli.add_option("--triangles", triangles, "Generated scenes of about so many triangles, for scaling; instead of --scene, or in addition"));
-    takeAll(cli.add_option("--camera", cameras, "own, scene:N, path:FILE@SECONDS, path:@SECONDS, FILE.json; several with commas")->capture_default_str());
+    takeAll(cli.add_option(
+        "--scene", what.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas (default: all that are found)"));
+    takeAll(cli.add_option(
+        "--triangles", triangles, "Generated scenes of about so many triangles, for scaling; instead of --scene, or in addition"));
+    takeAll(cli.add_option("--camera", cameras, "own, scene:N, path:FILE@SECONDS, path:@SECONDS, FILE.json; several with commas")
+            ->capture_default_str());
     takeAll(cli.add_option("--size", sizes, "WIDTHxHEIGHT in pixels, without guard band; several with commas")->capture_default_str());
     cli.add_option("--guard", what.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
     app::addVoxelArguments(cli, what.voxels, cli.option_defaults()->get_group());
 
     cli.option_defaults()->group("Measurement");
     addCandidateOptions(cli, chosen,
-              "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it, or a list of values: each is measured; may be repeated. Methods that "
-              "trace voxels also have voxels, voxel_size, voxelizer, voxel_structure and voxel_shell");
+        "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it, or a list of values: each is measured; may be repeated. Methods "
+        "that trace voxels also have voxels, voxel_size, voxelizer, voxel_structure and voxel_shell");
     takeAll(cli.add_option("--falloff", falloffs, "KIND:LENGTH in metres, or ramp:START:END; several with commas")->capture_default_str());
-    cli.add_option("--rounds", what.rounds, "Number of rounds; each runs all settings once")->check(CLI::Range(1u, 1000u))->capture_default_str();
-    cli.add_option("--frames", what.frames, "Timed frames of each setting in a round")->check(CLI::Range(1u, 100000u))->capture_default_str();
+    cli.add_option("--rounds", what.rounds, "Number of rounds; each runs all settings once")
+        ->check(CLI::Range(1u, 1000u))
+        ->capture_default_str();
+    cli.add_option("--frames", what.frames, "Timed frames of each setting in a round")
+        ->check(CLI::Range(1u, 100000u))
+        ->capture_default_str();
     cli.add_option("--warm-up", what.warmUp, "Untimed frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
-    takeAll(cli.add_option("--reference", references, "References that errors are measured against: world, screen, or none")->capture_default_str());
+    takeAll(cli.add_option("--reference", references, "References that errors are measured against: world, screen, or none")
+            ->capture_default_str());
     cli.add_option("--rays", what.rays.rays, "Rays per pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
     cli.add_option("--seed", what.rays.seed, "Seed of the rays")->capture_default_str();
     cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
-    cli.add_option("--flicker", flickerFrames, "Frames of the scene's flythrough on which flicker is measured; 0: flicker is not measured")->check(CLI::Range(0u, 10000u))->capture_default_str();
+    cli.add_option("--flicker", flickerFrames, "Frames of the scene's flythrough on which flicker is measured; 0: flicker is not measured")
+        ->check(CLI::Range(0u, 10000u))
+        ->capture_default_str();
     cli.add_option("--flicker-size", flickerSize, "WIDTHxHEIGHT of those frames, pixels")->capture_default_str();
 
     cli.option_defaults()->group("Output");
@@ -92,9 +104,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_flag("--again", options.again, "Measure again instead of resuming from the folder");
     cli.add_option("--from", options.from, "Measure nothing; read the bench.json of an earlier run");
     cli.add_option("--table", options.table, "Markdown file; replaces its table between <!-- bench: begin --> and <!-- bench: end -->");
-    cli.add_option("--compare", options.compare, "bench.json of an earlier run: print ratios with confidence intervals, fail on regressions");
-    cli.add_option("--tolerance", options.tolerance, "Relative growth of a row's time that is allowed in addition to its confidence interval")->check(CLI::Range(0.0, 10.0))->capture_default_str();
-    cli.add_flag("--absolute", options.absolute, "Compare milliseconds, not shares of a round; then a slower machine counts as a regression");
+    cli.add_option(
+        "--compare", options.compare, "bench.json of an earlier run: print ratios with confidence intervals, fail on regressions");
+    cli.add_option(
+           "--tolerance", options.tolerance, "Relative growth of a row's time that is allowed in addition to its confidence interval")
+        ->check(CLI::Range(0.0, 10.0))
+        ->capture_default_str();
+    cli.add_flag(
+        "--absolute", options.absolute, "Compare milliseconds, not shares of a round; then a slower machine counts as a regression");
     evaluate::addDevice(cli, what.device, what.validation, what.verbose);
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
@@ -102,7 +119,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.out = out;
     if (!options.from.empty()) {
         for (const char* option : {"--scene", "--triangles", "--method", "--preset", "--set", "--falloff", "--size", "--camera"})
-            if (cli.count(option)) throw Complaint(fmt::format("{}: has no effect with --from, which reads an earlier run; leave one of them out", option));
+            if (cli.count(option))
+                throw Complaint(fmt::format("{}: has no effect with --from, which reads an earlier run; leave one of them out", option));
         if (!cli.count("--out")) options.out.clear();  // tables and comparisons need no folder
         return options;
     }
@@ -118,7 +136,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (reference == "world") what.reference.world = true;
         else if (reference == "screen") what.reference.screen = true;
         else if (reference != "none" || references.size() > 1)
-            throw Complaint(fmt::format("--reference {}: {}", reference, reference == "none" ? "none cannot be combined with others" : app::choices(reference, {"world", "screen", "none"})));
+            throw Complaint(fmt::format("--reference {}: {}", reference,
+                reference == "none" ? "none cannot be combined with others" : app::choices(reference, {"world", "screen", "none"})));
     }
     what.rays.targetError = 0.0f;
     what.rays.cache = !noCache;
@@ -134,7 +153,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         settings.cache = what.rays.cache;
         settings.pictures = settings.still = false;
     }
-    if (!options.triangles.empty() && std::any_of(what.cameras.begin(), what.cameras.end(), [](const auto& c) { return c.kind == evaluate::CameraChoice::Kind::path; }))
+    if (!options.triangles.empty() &&
+        std::any_of(what.cameras.begin(), what.cameras.end(), [](const auto& c) { return c.kind == evaluate::CameraChoice::Kind::path; }))
         throw Complaint("--triangles: generated scenes have no flythrough; leave out --camera path:...");
     return options;
 }

@@ -28,9 +28,9 @@ const ErrorRow* Row::against(const std::string& reference) const {
 }
 
 Json toJson(const Row& r) {
-    Json json{{"method", r.method}, {"preset", r.preset}, {"settings", r.settings}, {"baseline", r.baseline}, {"scene", r.scene}, {"camera", r.camera},
-              {"width", r.width}, {"height", r.height}, {"falloff", r.falloff}, {"triangles", r.triangles}, {"reach", digits(r.reach)},
-              {"varied", r.varied}, {"samples", r.samples}, {"bytes", r.bytes}};
+    Json json{{"method", r.method}, {"preset", r.preset}, {"settings", r.settings}, {"baseline", r.baseline}, {"scene", r.scene},
+        {"camera", r.camera}, {"width", r.width}, {"height", r.height}, {"falloff", r.falloff}, {"triangles", r.triangles},
+        {"reach", digits(r.reach)}, {"varied", r.varied}, {"samples", r.samples}, {"bytes", r.bytes}};
     Json& ms = json["milliseconds"];
     ms["median"] = digits(r.median);
     ms["p95"] = digits(r.p95);
@@ -38,11 +38,12 @@ Json toJson(const Row& r) {
     ms["rounds"] = Json::array();
     for (const double round : r.rounds) ms["rounds"].push_back(digits(round));
     ms["passes"] = Json::array();
-    for (const PassTime& pass : r.passes) ms["passes"].push_back({{"name", pass.name}, {"median", digits(pass.median)}, {"p95", digits(pass.p95)}});
+    for (const PassTime& pass : r.passes)
+        ms["passes"].push_back({{"name", pass.name}, {"median", digits(pass.median)}, {"p95", digits(pass.p95)}});
     json["errors"] = Json::array();
     for (const ErrorRow& e : r.errors)
-        json["errors"].push_back({{"reference", e.reference}, {"eA", digits(e.eA)}, {"bias", digits(e.bias)}, {"rmse", digits(e.rmse)}, {"p99", digits(e.p99)},
-                                  {"ssim", digits(e.ssim)}});
+        json["errors"].push_back({{"reference", e.reference}, {"eA", digits(e.eA)}, {"bias", digits(e.bias)}, {"rmse", digits(e.rmse)},
+            {"p99", digits(e.p99)}, {"ssim", digits(e.ssim)}});
     if (r.flicker) json["flicker"] = {{"ofError", digits(r.flicker->ofError)}, {"ofReference", digits(r.flicker->ofReference)}};
     return json;
 }
@@ -50,21 +51,24 @@ Json toJson(const Row& r) {
 Row rowOf(const Json& json) {
     Row r;
     r.method = json.at("method"), r.preset = json.at("preset"), r.settings = json.at("settings"), r.baseline = json.at("baseline");
-    r.scene = json.at("scene"), r.camera = json.at("camera"), r.width = json.at("width"), r.height = json.at("height"), r.falloff = json.at("falloff");
-    r.triangles = json.at("triangles"), r.reach = json.at("reach"), r.varied = json.at("varied"), r.samples = json.at("samples"), r.bytes = json.at("bytes");
+    r.scene = json.at("scene"), r.camera = json.at("camera"), r.width = json.at("width"), r.height = json.at("height"),
+    r.falloff = json.at("falloff");
+    r.triangles = json.at("triangles"), r.reach = json.at("reach"), r.varied = json.at("varied"), r.samples = json.at("samples"),
+    r.bytes = json.at("bytes");
     const Json& ms = json.at("milliseconds");
     r.median = ms.at("median"), r.p95 = ms.at("p95"), r.frame = ms.at("frame");
     r.rounds = ms.at("rounds").get<std::vector<double>>();
     for (const Json& pass : ms.at("passes")) r.passes.push_back({pass.at("name"), pass.at("median"), pass.at("p95")});
-    for (const Json& e : json.at("errors")) r.errors.push_back({e.at("reference"), e.at("eA"), e.at("bias"), e.at("rmse"), e.at("p99"), e.at("ssim")});
+    for (const Json& e : json.at("errors"))
+        r.errors.push_back({e.at("reference"), e.at("eA"), e.at("bias"), e.at("rmse"), e.at("p99"), e.at("ssim")});
     if (json.contains("flicker")) r.flicker = Flicker{json["flicker"].at("ofError"), json["flicker"].at("ofReference")};
     return r;
 }
 
 std::string jsonText(const Results& results) {
-    Json json{{"device", results.device}, {"command", results.command}, {"guard", digits(results.guard)}, {"frames", results.frames}, {"warmUp", results.warmUp},
-              {"rounds", results.rounds}, {"rays", results.rays}, {"flickerFrames", results.flickerFrames},
-              {"flickerSize", {results.flickerWidth, results.flickerHeight}}, {"rows", Json::array()}};
+    Json json{{"device", results.device}, {"command", results.command}, {"guard", digits(results.guard)}, {"frames", results.frames},
+        {"warmUp", results.warmUp}, {"rounds", results.rounds}, {"rays", results.rays}, {"flickerFrames", results.flickerFrames},
+        {"flickerSize", {results.flickerWidth, results.flickerHeight}}, {"rows", Json::array()}};
     for (const Row& row : results.rows) json["rows"].push_back(toJson(row));
     return json.dump(1) + "\n";
 }
@@ -75,9 +79,11 @@ Results readResults(const std::filesystem::path& file) {
     try {
         const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
         Results results;
-        results.device = json.at("device"), results.command = json.at("command"), results.guard = json.at("guard"), results.frames = json.at("frames");
+        results.device = json.at("device"), results.command = json.at("command"), results.guard = json.at("guard"),
+        results.frames = json.at("frames");
         results.warmUp = json.at("warmUp"), results.rounds = json.at("rounds"), results.rays = json.at("rays");
-        results.flickerFrames = json.at("flickerFrames"), results.flickerWidth = json.at("flickerSize").at(0), results.flickerHeight = json.at("flickerSize").at(1);
+        results.flickerFrames = json.at("flickerFrames"), results.flickerWidth = json.at("flickerSize").at(0),
+        results.flickerHeight = json.at("flickerSize").at(1);
         for (const Json& row : json.at("rows")) results.rows.push_back(rowOf(row));
         return results;
     } catch (const Json::exception& error) {
@@ -87,14 +93,16 @@ Results readResults(const std::filesystem::path& file) {
 
 std::string csv(const Results& results) {
     std::string text =
-        "scene,camera,width,height,triangles,falloff,reach_m,method,preset,settings,baseline,median_ms,p95_ms,frame_ms,bytes,reference,eA,bias,rmse,p99,ssim,"
+        "scene,camera,width,height,triangles,falloff,reach_m,method,preset,settings,baseline,median_ms,p95_ms,frame_ms,bytes,reference,eA,"
+        "bias,rmse,p99,ssim,"
         "flicker_of_error,flicker_of_reference\n";
     for (const Row& r : results.rows) {
-        const std::string head = fmt::format("{},{},{},{},{},{},{:g},{},{},{},{},{:.4f},{:.4f},{:.4f},{}", r.scene, r.camera, r.width, r.height, r.triangles, r.falloff,
-                                             r.reach, r.method, r.preset, r.settings, int(r.baseline), r.median, r.p95, r.frame, r.bytes);
+        const std::string head = fmt::format("{},{},{},{},{},{},{:g},{},{},{},{},{:.4f},{:.4f},{:.4f},{}", r.scene, r.camera, r.width,
+            r.height, r.triangles, r.falloff, r.reach, r.method, r.preset, r.settings, int(r.baseline), r.median, r.p95, r.frame, r.bytes);
         const std::string tail = r.flicker ? fmt::format("{:.6f},{:.6f}", r.flicker->ofError, r.flicker->ofReference) : ",";
         for (const ErrorRow& e : r.errors)
-            text += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n", head, e.reference, e.eA, e.bias, e.rmse, e.p99, e.ssim, tail);
+            text +=
+                fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n", head, e.reference, e.eA, e.bias, e.rmse, e.p99, e.ssim, tail);
         if (r.errors.empty()) text += fmt::format("{},,,,,,,{}\n", head, tail);
     }
     return text;
@@ -104,8 +112,8 @@ std::string passesCsv(const Results& results) {
     std::string text = "scene,camera,width,height,falloff,method,preset,settings,pass,median_ms,p95_ms\n";
     for (const Row& r : results.rows)
         for (const PassTime& pass : r.passes)
-            text += fmt::format("{},{},{},{},{},{},{},{},{},{:.4f},{:.4f}\n", r.scene, r.camera, r.width, r.height, r.falloff, r.method, r.preset, r.settings,
-                                pass.name, pass.median, pass.p95);
+            text += fmt::format("{},{},{},{},{},{},{},{},{},{:.4f},{:.4f}\n", r.scene, r.camera, r.width, r.height, r.falloff, r.method,
+                r.preset, r.settings, pass.name, pass.median, pass.p95);
     return text;
 }
 

@@ -37,8 +37,12 @@ std::string bare(const Row& r) {
 
 At onPixels(const Row& r) { return {r.label(), fmt::format("{} {} {}", r.scene, r.camera, r.falloff), double(r.width) * r.height}; }
 At onRadius(const Row& r) { return {r.label(), fmt::format("{} {} {} {}", r.scene, r.camera, size(r), kind(r)), r.reach}; }
-At onTriangles(const Row& r) { return {generated(r) ? r.label() : "", fmt::format("balls {} {} {}", r.camera, size(r), r.falloff), double(r.triangles)}; }
-At onSamples(const Row& r) { return {r.samples > 0.0 ? bare(r) : "", fmt::format("{} {} {} {}", r.scene, r.camera, size(r), r.falloff), r.samples}; }
+At onTriangles(const Row& r) {
+    return {generated(r) ? r.label() : "", fmt::format("balls {} {} {}", r.camera, size(r), r.falloff), double(r.triangles)};
+}
+At onSamples(const Row& r) {
+    return {r.samples > 0.0 ? bare(r) : "", fmt::format("{} {} {} {}", r.scene, r.camera, size(r), r.falloff), r.samples};
+}
 
 }  // namespace
 
@@ -60,7 +64,10 @@ void fit(Fit& line) {
 }
 
 std::vector<Fit> fits(const Results& results) {
-    const struct { const char* axis; At (*at)(const Row&); } axes[] = {{"pixels", onPixels}, {"radius", onRadius}, {"triangles", onTriangles}, {"samples", onSamples}};
+    const struct {
+        const char* axis;
+        At (*at)(const Row&);
+    } axes[] = {{"pixels", onPixels}, {"radius", onRadius}, {"triangles", onTriangles}, {"samples", onSamples}};
     std::vector<Fit> list;
     for (const auto& axis : axes) {
         std::map<std::pair<std::string, std::string>, std::map<double, std::pair<double, double>>> lines;  // x -> sum of log y, count

@@ -8,9 +8,9 @@
 namespace obscura::bench {
 
 struct Fit {
-    std::string axis;                  // "pixels", "radius", "triangles", or the varied parameter: "steps"
-    std::string label, where;          // the candidate without the varied parameter; scene, camera, size and falloff shared by the rows
-    std::vector<double> x, y;          // y: ms; at least three different x, ascending
+    std::string axis;          // "pixels", "radius", "triangles", or the varied parameter: "steps"
+    std::string label, where;  // the candidate without the varied parameter; scene, camera, size and falloff shared by the rows
+    std::vector<double> x, y;  // y: ms; at least three different x, ascending
     double exponent = 0.0, error = 0.0, factor = 0.0;  // y = factor x^exponent; standard error of the exponent
 };
 std::vector<Fit> fits(const Results& results);

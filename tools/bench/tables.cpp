@@ -29,13 +29,13 @@ struct Line {
     double logTime = 0.0, p95 = 0.0, bytes = 0.0, world = 0.0, screen = 0.0, flicker = 0.0;
     size_t rows = 0, worlds = 0, screens = 0, flickers = 0;
     bool timed = true;
-    std::vector<std::string> scenes;     // cells, in the order of the columns
+    std::vector<std::string> scenes;  // cells, in the order of the columns
     double milliseconds() const { return timed ? std::exp(logTime / double(rows)) : 0.0; }
 };
 
 struct Table {
     std::string size, falloff;
-    std::vector<std::string> places;     // "sponza", with camera where there are several
+    std::vector<std::string> places;  // "sponza", with camera where there are several
     std::vector<Line> lines;
 };
 
@@ -55,7 +55,8 @@ std::vector<Table> tablesOf(const Results& results) {
             if (fmt::format("{} x {}", row.width, row.height) != table.size || row.falloff != table.falloff) continue;
             auto line = std::find_if(table.lines.begin(), table.lines.end(), [&](const Line& l) { return l.label == row.label(); });
             if (line == table.lines.end()) {
-                line = table.lines.insert(table.lines.end(), Line{row.label(), row.method, row.preset == "default" && row.settings.empty(), row.baseline});
+                line = table.lines.insert(
+                    table.lines.end(), Line{row.label(), row.method, row.preset == "default" && row.settings.empty(), row.baseline});
                 line->scenes.assign(table.places.size(), "");
             }
             ++line->rows;
@@ -64,12 +65,14 @@ std::vector<Table> tablesOf(const Results& results) {
             line->p95 = std::max(line->p95, row.median > 0.0 ? row.p95 / row.median : 0.0);
             line->bytes = std::max(line->bytes, double(row.bytes));
             const size_t column = size_t(std::find(table.places.begin(), table.places.end(), placeOf(row)) - table.places.begin());
-            if (const ErrorRow* e = row.against("world")) line->world += e->eA, ++line->worlds, line->scenes[column] = fmt::format("{:.4f}", e->eA);
+            if (const ErrorRow* e = row.against("world"))
+                line->world += e->eA, ++line->worlds, line->scenes[column] = fmt::format("{:.4f}", e->eA);
             if (const ErrorRow* e = row.against("screen")) line->screen += e->eA, ++line->screens;
             if (row.flicker) line->flicker += row.flicker->ofError, ++line->flickers;
         }
     for (Table& table : tables) {
-        std::stable_sort(table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) { return a.milliseconds() < b.milliseconds(); });
+        std::stable_sort(
+            table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) { return a.milliseconds() < b.milliseconds(); });
         double best = std::numeric_limits<double>::infinity();
         for (Line& line : table.lines) {
             const double error = line.worlds ? line.world / double(line.worlds) : 0.0;
@@ -86,7 +89,11 @@ std::string mean(double sum, size_t count) { return count ? fmt::format("{:.4f}"
 std::string inputsOf(const ao::MethodInfo& info) {
     std::string text;
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
-    const struct { ao::Needs need; const char* word; } words[] = {{ao::kDepth, "depth"}, {ao::kNormals, "normals"}, {ao::kMotion, "motion"}, {ao::kLayers, "layers"}, {ao::kVolume, "voxels"}};
+    const struct {
+        ao::Needs need;
+        const char* word;
+    } words[] = {
+        {ao::kDepth, "depth"}, {ao::kNormals, "normals"}, {ao::kMotion, "motion"}, {ao::kLayers, "layers"}, {ao::kVolume, "voxels"}};
     for (const auto& [need, word] : words)
         if (info.needs & need) add(word);
     for (const ao::Parameter& parameter : info.parameters)
@@ -95,7 +102,8 @@ std::string inputsOf(const ao::MethodInfo& info) {
 }
 
 std::string tableText(const Table& table, bool brief) {
-    std::string text = brief ? "| method | paper | inputs | ms | p95 | MB |" : "| method | ms | p95 | MB |", rule = brief ? "|---|---|---|--:|--:|--:|" : "|---|--:|--:|--:|";
+    std::string text = brief ? "| method | paper | inputs | ms | p95 | MB |" : "| method | ms | p95 | MB |",
+                rule = brief ? "|---|---|---|--:|--:|--:|" : "|---|--:|--:|--:|";
     for (const std::string& place : table.places) text += fmt::format(" eA {} |", place), rule += "--:|";
     text += " eA screen | F_e |\n" + rule + "--:|--:|\n";
     for (const Line& line : table.lines) {
@@ -103,7 +111,12 @@ std::string tableText(const Table& table, bool brief) {
         const std::string name = line.best ? fmt::format("**{}**", line.label) : line.label;
         text += fmt::format("| {}{} |", name, line.baseline ? " (baseline)" : "");
         const ao::MethodInfo* info = brief ? ao::findMethod(line.method.c_str()) : nullptr;
-        if (brief) text += fmt::format(" {} | {} |", !info || !line.plain ? "" : info->paper[0] || !info->needs ? citation(info->paper) : "our own", info ? inputsOf(*info) : "");
+        if (brief)
+            text += fmt::format(" {} | {} |",
+                !info || !line.plain             ? ""
+                : info->paper[0] || !info->needs ? citation(info->paper)
+                                                 : "our own",
+                info ? inputsOf(*info) : "");
         text += fmt::format(" {:.2f} | {:.2f} | {:.1f} |", line.milliseconds(), line.p95, line.bytes * 1e-6);
         for (const std::string& cell : line.scenes) text += fmt::format(" {} |", cell);
         text += fmt::format(" {} | {} |\n", mean(line.screen, line.screens), mean(line.flicker, line.flickers));
@@ -113,13 +126,19 @@ std::string tableText(const Table& table, bool brief) {
 
 std::string legend(const Results& r) {
     return fmt::format(
-        "ms: median time of the method's own passes, geometric mean over the scenes, {} rounds of {} frames in turns after {} for warm-up; p95: 95th percentile over the\n"
-        "median, the worst scene's; MB: device memory beyond the frame's own. eA: mean absolute error of visibility against rays through the scene's triangles, {}\n"
-        "a pixel; eA screen: against rays through the depth buffer, mean over the scenes.{} Bold: no other is both faster and more accurate, on the mean of\n"
-        "the scenes. {}; compare times only inside the table. (layers): read where `depth_layers` says so. Missing normals are reconstructed; any method but\n"
+        "ms: median time of the method's own passes, geometric mean over the scenes, {} rounds of {} frames in turns after {} for warm-up; "
+        "p95: 95th percentile over the\n"
+        "median, the worst scene's; MB: device memory beyond the frame's own. eA: mean absolute error of visibility against rays through "
+        "the scene's triangles, {}\n"
+        "a pixel; eA screen: against rays through the depth buffer, mean over the scenes.{} Bold: no other is both faster and more "
+        "accurate, on the mean of\n"
+        "the scenes. {}; compare times only inside the table. (layers): read where `depth_layers` says so. Missing normals are "
+        "reconstructed; any method but\n"
         "`hybrid` takes voxels with `offscreen`, and motion with `temporal`.\n",
         r.rounds, r.frames, r.warmUp, r.rays,
-        r.flickerFrames ? fmt::format(" F_e: flicker of error over {} frames of each scene's flythrough at {} x {}, mean.", r.flickerFrames, r.flickerWidth, r.flickerHeight) : "",
+        r.flickerFrames ? fmt::format(" F_e: flicker of error over {} frames of each scene's flythrough at {} x {}, mean.", r.flickerFrames,
+                              r.flickerWidth, r.flickerHeight)
+                        : "",
         r.device);
 }
 
@@ -142,12 +161,14 @@ std::string citation(const std::string& paper) {
 
 std::string markdown(const Results& results) {
     std::string text;
-    for (const Table& table : tablesOf(results)) text += fmt::format("{}**{}, {} px**\n\n{}", text.empty() ? "" : "\n", table.falloff, table.size, tableText(table, false));
+    for (const Table& table : tablesOf(results))
+        text += fmt::format("{}**{}, {} px**\n\n{}", text.empty() ? "" : "\n", table.falloff, table.size, tableText(table, false));
     return text;
 }
 
 std::string report(const Results& results) {
-    std::string text = fmt::format("# Time, error, flicker and memory of ambient-obscurance methods\n\n    {}\n\n{}\n{}", results.command, legend(results), markdown(results));
+    std::string text = fmt::format("# Time, error, flicker and memory of ambient-obscurance methods\n\n    {}\n\n{}\n{}", results.command,
+        legend(results), markdown(results));
     const char* head = "\n## Fronts\n\nTime budgets at which a baseline method has less error than the best of ours within budget.\n\n";
     for (const Front& front : fronts(results)) {
         if (!front.both) continue;
@@ -157,24 +178,27 @@ std::string report(const Results& results) {
     }
     const std::vector<Fit> lines = fits(results);
     if (lines.empty()) return text;
-    text += "\n## Scaling\n\ntime = factor x^exponent, least squares over logarithms, with the exponent's standard error.\n\n"
-            "| x | from | to | method | where | exponent |\n|---|--:|--:|---|---|--:|\n";
+    text +=
+        "\n## Scaling\n\ntime = factor x^exponent, least squares over logarithms, with the exponent's standard error.\n\n"
+        "| x | from | to | method | where | exponent |\n|---|--:|--:|---|---|--:|\n";
     for (const Fit& line : lines)
-        text += fmt::format("| {} | {:g} | {:g} | {} | {} | {:.2f} ± {:.2f} |\n", line.axis, line.x.front(), line.x.back(), line.label, line.where, line.exponent, line.error);
+        text += fmt::format("| {} | {:g} | {:g} | {} | {} | {:.2f} ± {:.2f} |\n", line.axis, line.x.front(), line.x.back(), line.label,
+            line.where, line.exponent, line.error);
     return text;
 }
 
 std::string briefTable(const Results& results) {
     const std::vector<Table> tables = tablesOf(results);
     if (tables.empty()) throw app::Complaint("--table: nothing was measured, so there is no table");
-    return fmt::format("{}, {} px, default presets and the best of all:\n\n{}\n{}\n    {}\n", tables.front().falloff, tables.front().size, tableText(tables.front(), true),
-                       legend(results), results.command);
+    return fmt::format("{}, {} px, default presets and the best of all:\n\n{}\n{}\n    {}\n", tables.front().falloff, tables.front().size,
+        tableText(tables.front(), true), legend(results), results.command);
 }
 
 std::string withTable(const std::string& text, const std::string& table, const std::filesystem::path& file) {
     const size_t begin = text.find(kTableBegin), end = text.find(kTableEnd);
     if (begin == std::string::npos || end == std::string::npos || end < begin)
-        throw app::Complaint(fmt::format("--table {}: has no markers; put the lines {} and {} where the table belongs", file.string(), kTableBegin, kTableEnd));
+        throw app::Complaint(fmt::format(
+            "--table {}: has no markers; put the lines {} and {} where the table belongs", file.string(), kTableBegin, kTableEnd));
     return text.substr(0, begin) + kTableBegin + "\n" + table + text.substr(end);
 }
 

@@ -25,7 +25,9 @@ void addCandidateOptions(CLI::App& cli, CandidateOptions& into, const char* setH
 void addDevice(CLI::App& cli, std::string& device, std::string& validation, bool& verbose) {
     cli.option_defaults()->group("Device");
     cli.add_option("--device", device, "Part of the name of the Vulkan device to use");
-    cli.add_option("--validation", validation, "Vulkan validation: off, core, or sync")->check(CLI::IsMember({"off", "core", "sync"}))->capture_default_str();
+    cli.add_option("--validation", validation, "Vulkan validation: off, core, or sync")
+        ->check(CLI::IsMember({"off", "core", "sync"}))
+        ->capture_default_str();
     cli.add_flag("--verbose", verbose, "Print the log of device and loader");
 }
 
@@ -33,7 +35,8 @@ std::string commandOf(const char* program, int argc, const char* const* argv) {
     std::string command = program;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i], option = word.substr(0, word.find('='));
-        if (option != "--out" && option != "--table" && option != "--compare" && option != "--device") command += " " + app::shellWord(word);
+        if (option != "--out" && option != "--table" && option != "--compare" && option != "--device")
+            command += " " + app::shellWord(word);
         else if (option == word) ++i;
     }
     return command;

@@ -16,7 +16,8 @@ struct CandidateOptions {
     std::string offscreen, resolve;
     std::vector<std::string> allSets() const;  // including those of --offscreen and --resolve
 };
-void addCandidateOptions(CLI::App& cli, CandidateOptions& into, const char* setHelp = "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated");
+void addCandidateOptions(CLI::App& cli, CandidateOptions& into,
+    const char* setHelp = "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for all that have it; may be repeated");
 
 // --device, --validation and --verbose, in their own group.
 void addDevice(CLI::App& cli, std::string& device, std::string& validation, bool& verbose);

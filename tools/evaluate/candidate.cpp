@@ -52,8 +52,7 @@ void expectKnown(const std::vector<const ao::MethodInfo*>& methods, const std::v
     for (const std::string& wanted : presets)
         if (!isAll(presets) && std::find(names.begin(), names.end(), wanted) == names.end())
             throw Complaint(fmt::format("--preset {}: {} no such preset; {}, or all", wanted,
-                                        methods.size() == 1 ? std::string(methods[0]->id) + " has" : "the chosen methods have",
-                                        app::choices(wanted, names)));
+                methods.size() == 1 ? std::string(methods[0]->id) + " has" : "the chosen methods have", app::choices(wanted, names)));
 }
 
 // Voxelization settings, as parameters of the methods that trace voxels.
@@ -64,8 +63,8 @@ const ao::Parameter kVoxels[] = {
     {"voxel_structure", "", 0, 1, 0, true, {app::kStructureNames, 2}, ""},
     {"voxel_shell", "", 0, 1, 0, true, {app::kShellNames, 2}, ""},
 };
-constexpr std::optional<float> VoxelChoice::*kVoxelMembers[] = {&VoxelChoice::cells, &VoxelChoice::cellSize, &VoxelChoice::voxelizer,
-                                                                &VoxelChoice::structure, &VoxelChoice::shell};
+constexpr std::optional<float> VoxelChoice::* kVoxelMembers[] = {
+    &VoxelChoice::cells, &VoxelChoice::cellSize, &VoxelChoice::voxelizer, &VoxelChoice::structure, &VoxelChoice::shell};
 
 // Empty if the method has no such parameter.
 const ao::Parameter* parameterOf(const Candidate& candidate, const std::string& name) {
@@ -84,13 +83,13 @@ float valueOf(const std::string& assignment, const ao::Parameter& parameter, con
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
         const std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
-        throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is not a number; {} goes from {:g} to {:g}", assignment, text, parameter.id,
-                                                    parameter.minimum, parameter.maximum)
+        throw Complaint(words.empty() ? fmt::format("--set {}: '{}' is not a number; {} goes from {:g} to {:g}", assignment, text,
+                                            parameter.id, parameter.minimum, parameter.maximum)
                                       : fmt::format("--set {}: {}", assignment, app::choices(text, words)));
     }
     if (value < parameter.minimum || value > parameter.maximum || (parameter.integer && value != std::floor(value)))
-        throw Complaint(fmt::format("--set {}: {} is a {} from {:g} to {:g}", assignment, parameter.id, parameter.integer ? "whole number" : "number",
-                                    parameter.minimum, parameter.maximum));
+        throw Complaint(fmt::format("--set {}: {} is a {} from {:g} to {:g}", assignment, parameter.id,
+            parameter.integer ? "whole number" : "number", parameter.minimum, parameter.maximum));
     return value;
 }
 
@@ -99,7 +98,8 @@ void assign(std::vector<Candidate>& list, const std::string& assignment) {
     if (equals == std::string::npos) throw Complaint(fmt::format("--set {}: no value; write METHOD.PARAMETER=VALUE", assignment));
     const std::string left = assignment.substr(0, equals), text = assignment.substr(equals + 1);
     const size_t dot = left.find('.');
-    const std::string method = dot == std::string::npos ? "" : left.substr(0, dot), name = dot == std::string::npos ? left : left.substr(dot + 1);
+    const std::string method = dot == std::string::npos ? "" : left.substr(0, dot),
+                      name = dot == std::string::npos ? left : left.substr(dot + 1);
     bool chosen = false, used = false;
     const ao::Preset* resolve = name == "resolve" ? &resolvePreset("--set " + assignment, text) : nullptr;
     std::vector<std::string> names, ids;
@@ -161,8 +161,8 @@ std::string Candidate::fileName() const {
 
 std::string FalloffChoice::fileName() const { return safe(text); }
 
-std::vector<Candidate> candidates(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
-                                  const std::vector<std::string>& sets) {
+std::vector<Candidate> candidates(
+    const std::vector<std::string>& methods, const std::vector<std::string>& presets, const std::vector<std::string>& sets) {
     std::vector<Candidate> list;
     const std::vector<const ao::MethodInfo*> chosen = methodsOf(methods);
     expectKnown(chosen, presets);
@@ -176,8 +176,8 @@ std::vector<Candidate> candidates(const std::vector<std::string>& methods, const
     return list;
 }
 
-std::vector<Candidate> variants(const std::vector<std::string>& methods, const std::vector<std::string>& presets,
-                                const std::vector<std::string>& sets) {
+std::vector<Candidate> variants(
+    const std::vector<std::string>& methods, const std::vector<std::string>& presets, const std::vector<std::string>& sets) {
     // Every combination of the lists' values, the last list's fastest.
     std::vector<std::vector<std::string>> combinations{{}};
     std::vector<std::string> varied;
@@ -222,8 +222,8 @@ std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts) {
             const std::string kind = text.substr(0, text.find(':'));
             if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
                 throw Complaint(fmt::format("--falloff {}: no such kind; {}", text, app::choices(kind, kinds)));
-            throw Complaint(
-                fmt::format("--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
+            throw Complaint(fmt::format(
+                "--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
         }
         // Normalized spelling, because cells and channels are found by it.
         const std::string kind = kKinds[size_t(falloff.kind)];

@@ -34,7 +34,8 @@ SceneFile sceneOf(const scene::JsonAt& at) {
 std::optional<fs::path> findContent(const std::string& relative) {
     const fs::path source = OBSCURA_SOURCE_DIR;
     std::vector<fs::path> folders{source / "content"};
-    if (const fs::path program = app::executableFolder(); !program.empty()) folders.push_back((program / "../share/obscura").lexically_normal());
+    if (const fs::path program = app::executableFolder(); !program.empty())
+        folders.push_back((program / "../share/obscura").lexically_normal());
     if (const char* named = std::getenv("OBSCURA_CONTENT"); named && *named) folders.emplace_back(named);
     folders.push_back((source / "../shared/content").lexically_normal());
     std::error_code ignored;
@@ -45,7 +46,8 @@ std::optional<fs::path> findContent(const std::string& relative) {
 
 std::vector<SceneFile> namedScenes() {
     const auto manifest = findContent("scenes.json");
-    if (!manifest) throw Complaint("scenes.json: not found in content/; run from the source tree, or name a content folder in OBSCURA_CONTENT");
+    if (!manifest)
+        throw Complaint("scenes.json: not found in content/; run from the source tree, or name a content folder in OBSCURA_CONTENT");
     const scene::JsonFile json(*manifest);
     const scene::JsonAt scenes = json.root().at("scenes").expectArray();
     std::vector<SceneFile> list;
@@ -65,7 +67,8 @@ SceneFile findScene(const std::string& nameOrPath) {
     if (fs::is_regular_file(nameOrPath, ignored)) return {fs::path(nameOrPath).stem().string(), nameOrPath, {}, {}, {}};
     const bool path = nameOrPath.find('/') != std::string::npos || nameOrPath.find(".gl") != std::string::npos;
     throw Complaint(
-        path ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", nameOrPath, fmt::join(names, ", "))
+        path ? fmt::format(
+                   "--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", nameOrPath, fmt::join(names, ", "))
              : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", nameOrPath, app::choices(nameOrPath, names)));
 }
 

@@ -8,7 +8,9 @@ namespace obscura::evaluate {
 
 inline constexpr float kErrorRange = 0.25f;  // error at which the colours saturate
 
-struct Rgb { uint8_t r, g, b; };
+struct Rgb {
+    uint8_t r, g, b;
+};
 // Of an error A - R of visibility, in the ramp of shaders/post/false_colour.h: blue where the picture is too dark, orange where it is
 // too bright. page/gallery.js has the same ramp.
 Rgb errorColour(float error, float range = kErrorRange);

@@ -9,7 +9,9 @@ namespace obscura::evaluate {
 
 namespace {
 
-std::string dataUri(const truth::Plane& visibility) { return "data:image/png;base64," + app::base64(app::encodePng(greyPicture(visibility))); }
+std::string dataUri(const truth::Plane& visibility) {
+    return "data:image/png;base64," + app::base64(app::encodePng(greyPicture(visibility)));
+}
 
 Json methodsJson(const Options& options) {
     Json list = Json::array();
@@ -32,18 +34,13 @@ Json shotJson(const ShotResult& shot, const Options& options, const About& about
     json["remark"] = shot.remark;
     json["references"] = Json::array();
     for (const ShotReference& reference : shot.references)
-        json["references"].push_back({{"kind", reference.kind},
-                                      {"falloff", reference.falloff},
-                                      {"rays", reference.rays},
-                                      {"error", reference.error},
-                                      {"picture", dataUri(reference.visibility)}});
+        json["references"].push_back({{"kind", reference.kind}, {"falloff", reference.falloff}, {"rays", reference.rays},
+            {"error", reference.error}, {"picture", dataUri(reference.visibility)}});
     json["drawn"] = Json::array();
     for (const Drawn& drawn : shot.drawn) {
         const Candidate& candidate = options.candidates[drawn.candidate];
-        json["drawn"].push_back({{"method", candidate.info().id},
-                                 {"label", candidate.label()},
-                                 {"falloff", options.falloffs[drawn.falloff].text},
-                                 {"picture", dataUri(drawn.visibility)}});
+        json["drawn"].push_back({{"method", candidate.info().id}, {"label", candidate.label()},
+            {"falloff", options.falloffs[drawn.falloff].text}, {"picture", dataUri(drawn.visibility)}});
     }
     json["rows"] = Json::array();
     for (const Row& row : shot.rows) {

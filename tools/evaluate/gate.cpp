@@ -44,11 +44,12 @@ std::map<Cell, float> measureCells(const Options& options) {
         for (const Row& row : result.rows) {
             const Candidate& candidate = options.candidates[result.drawn[row.drawn].candidate];
             const ShotReference& reference = result.references[row.reference];
-            cells[{candidate.info().id, candidate.preset, result.scene, result.camera, reference.falloff, reference.kind}] = row.whole().raw.eA;
+            cells[{candidate.info().id, candidate.preset, result.scene, result.camera, reference.falloff, reference.kind}] =
+                row.whole().raw.eA;
         }
-        fmt::print("{} {}: {} cells; frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s\n", result.scene, result.camera,
-                   result.rows.size(), result.seconds.frame, result.seconds.references, result.referencesFromCache ? " (cached)" : "",
-                   result.seconds.methods, result.seconds.metrics);
+        fmt::print("{} {}: {} cells; frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s\n", result.scene,
+            result.camera, result.rows.size(), result.seconds.frame, result.seconds.references,
+            result.referencesFromCache ? " (cached)" : "", result.seconds.methods, result.seconds.metrics);
     });
     return cells;
 }
@@ -85,8 +86,8 @@ Baseline readBaseline(const fs::path& file) {
     for (size_t i = 0; i < cells.size(); ++i) {
         const scene::JsonAt at = cells.at(i);
         at.only({"method", "preset", "scene", "camera", "falloff", "reference", "eA"});
-        baseline.cells[{at.at("method").text(), at.at("preset").text(), at.at("scene").text(), at.at("camera").text(), at.at("falloff").text(),
-                        at.at("reference").text()}] = float(at.at("eA").number(0.0, 1.0));
+        baseline.cells[{at.at("method").text(), at.at("preset").text(), at.at("scene").text(), at.at("camera").text(),
+            at.at("falloff").text(), at.at("reference").text()}] = float(at.at("eA").number(0.0, 1.0));
     }
     return baseline;
 }
@@ -95,7 +96,8 @@ std::string baselineText(const Baseline& baseline) {
     // Not dumped by the JSON library: one line per cell keeps diffs readable.
     Json head;
     head["about"] =
-        "Mean absolute error of visibility. A cell may not worsen by more than `relative` of itself and `absolute`. Renew: obscura-evaluate --renew-baseline THIS";
+        "Mean absolute error of visibility. A cell may not worsen by more than `relative` of itself and `absolute`. Renew: "
+        "obscura-evaluate --renew-baseline THIS";
     head["size"] = {baseline.size.x, baseline.size.y};
     head["guard"] = std::stod(fmt::format("{:.6g}", baseline.guard));
     head["rays"] = baseline.rays;
@@ -111,13 +113,8 @@ std::string baselineText(const Baseline& baseline) {
     text += "  \"cells\": [";
     const char* separator = "\n";
     for (const auto& [cell, eA] : baseline.cells) {
-        const Json line = {{"method", cell.method},
-                           {"preset", cell.preset},
-                           {"scene", cell.scene},
-                           {"camera", cell.camera},
-                           {"falloff", cell.falloff},
-                           {"reference", cell.reference},
-                           {"eA", std::stod(fmt::format("{:.5f}", eA))}};
+        const Json line = {{"method", cell.method}, {"preset", cell.preset}, {"scene", cell.scene}, {"camera", cell.camera},
+            {"falloff", cell.falloff}, {"reference", cell.reference}, {"eA", std::stod(fmt::format("{:.5f}", eA))}};
         text += separator + ("    " + line.dump());
         separator = ",\n";
     }
@@ -134,7 +131,7 @@ Verdict judge(const Baseline& baseline, const std::map<Cell, float>& measured) {
         }
         const float change = eA - held->second, allowed = std::max(baseline.absolute, baseline.relative * held->second);
         const std::string line = fmt::format("{}: eA {:.5f}, was {:.5f} ({:+.1f} %)", cell.name(), eA, held->second,
-                                             held->second > 0.0f ? 100.0f * change / held->second : 0.0f);
+            held->second > 0.0f ? 100.0f * change / held->second : 0.0f);
         if (change > allowed) verdict.worse.push_back(line);
         if (change < -allowed) verdict.better.push_back(line);
     }
@@ -155,9 +152,11 @@ int checkBaseline(const Options& wanted) {
     if (wanted.candidates.size() == candidates({"all"}, {"all"}, {}).size()) print("in the baseline only:", verdict.gone);
     const std::string renew = fmt::format("obscura-evaluate --renew-baseline {}", wanted.baseline.string());
     if (!verdict.passes())
-        fmt::print("failed: {} of {} cells are worse, {} are not in the baseline. If this change is intended: {}\n", verdict.worse.size(), measured.size(),
-                   verdict.missing.size(), renew);
-    else fmt::print("passed: {} cells, none worse by more than {:g} % and {:g}\n", measured.size(), 100.0f * baseline.relative, baseline.absolute);
+        fmt::print("failed: {} of {} cells are worse, {} are not in the baseline. If this change is intended: {}\n", verdict.worse.size(),
+            measured.size(), verdict.missing.size(), renew);
+    else
+        fmt::print(
+            "passed: {} cells, none worse by more than {:g} % and {:g}\n", measured.size(), 100.0f * baseline.relative, baseline.absolute);
     return verdict.passes() ? 0 : app::kFailed;
 }
 

@@ -23,16 +23,16 @@ struct Baseline {
     uint32_t rays = 64, seed = 1;
     float relative = 0.03f, absolute = 0.0005f;  // a cell fails if its error grows by more than both
     std::vector<std::string> scenes, cameras, falloffs, references;
-    std::map<Cell, float> cells;                 // eA
+    std::map<Cell, float> cells;  // eA
 };
 
 Baseline readBaseline(const std::filesystem::path& file);  // throws scene::Error
 std::string baselineText(const Baseline& baseline);        // the file's text, one line per cell
 
 struct Verdict {
-    std::vector<std::string> worse, missing;   // lines; either fails the gate
-    std::vector<std::string> better;           // cells that improved by more than both tolerances
-    std::vector<std::string> gone;             // cells of methods or presets that no longer exist
+    std::vector<std::string> worse, missing;  // lines; either fails the gate
+    std::vector<std::string> better;          // cells that improved by more than both tolerances
+    std::vector<std::string> gone;            // cells of methods or presets that no longer exist
     bool passes() const { return worse.empty() && missing.empty(); }
 };
 Verdict judge(const Baseline& baseline, const std::map<Cell, float>& measured);

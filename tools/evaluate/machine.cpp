@@ -19,7 +19,8 @@ constexpr const char* kReadBack = "evaluate.read";
 gpu::Status readBack(gpu::Device& device, graph::Graph& graph, graph::ImageId image, gpu::Buffer& buffer) {
     const gpu::ImageDesc desc = graph.desc(image);
     const uint64_t bytes = uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format);
-    const gpu::Status status = gpu::Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, kReadBack, buffer);
+    const gpu::Status status =
+        gpu::Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, kReadBack, buffer);
     if (status != gpu::Status::ok) return status;
     const VkBuffer target = buffer.handle();
     graph.pass(kReadBack)
@@ -27,16 +28,18 @@ gpu::Status readBack(gpu::Device& device, graph::Graph& graph, graph::ImageId im
         .use(graph.import(kReadBack, buffer, graph::Graph::Shared::written), graph::Access::transferWrite)
         .keep()
         .record([=](const graph::PassContext& context) {
-            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {desc.width, desc.height, 1}};
+            const VkBufferImageCopy region{
+                .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {desc.width, desc.height, 1}};
             const gpu::Api& vk = context.device.vk();
             vk.CmdCopyImageToBuffer(context.cmd, context.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, 1, &region);
             // The fence alone does not make device writes visible to the host.
             const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                          .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                          .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                          .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                          .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-            const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
+                .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+            const VkDependencyInfo dependency{
+                .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
             vk.CmdPipelineBarrier2(context.cmd, &dependency);
         });
     return gpu::Status::ok;
@@ -58,7 +61,8 @@ Machine::Machine(const Choice& choice) {
     if (const auto cache = app::cacheFolder(); !cache.empty()) wanted.pipelineCacheFile = (cache / "pipelines.bin").string();
     std::string error;
     m_device = gpu::Device::create(wanted, error);
-    if (!m_device) throw Complaint(fmt::format("no device: {}", app::oneLine(error)), choice.device.empty() ? app::kFailed : app::kBadInput);
+    if (!m_device)
+        throw Complaint(fmt::format("no device: {}", app::oneLine(error)), choice.device.empty() ? app::kFailed : app::kBadInput);
     m_shaders.add(ao::shaders());
     m_shaders.add(render::shaders());
     m_shaders.add(truth::shaders());
@@ -75,8 +79,8 @@ Machine::~Machine() {
 void Machine::expect(gpu::Status status, const char* doing) const {
     if (status == gpu::Status::ok) return;
     const char* advice = status == gpu::Status::outOfMemory ? "; try a smaller --size" : "";
-    throw Complaint(
-        fmt::format("{}: {} while {}{}{}", deviceName(), gpu::name(status), doing, m_messages.empty() ? "" : ": " + m_messages.back(), advice),
+    throw Complaint(fmt::format("{}: {} while {}{}{}", deviceName(), gpu::name(status), doing,
+                        m_messages.empty() ? "" : ": " + m_messages.back(), advice),
         app::kFailed);
 }
 
@@ -130,7 +134,8 @@ Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declar
         const std::vector<graph::ImageId> images = declare(*m_graph, i);
         if (i == last) buffers.resize(images.size());
         for (size_t k = 0; k < images.size(); ++k) {
-            if (!images[k]) throw Complaint(fmt::format("nothing was drawn{}", m_messages.empty() ? "" : ": " + m_messages.back()), app::kFailed);
+            if (!images[k])
+                throw Complaint(fmt::format("nothing was drawn{}", m_messages.empty() ? "" : ": " + m_messages.back()), app::kFailed);
             if (i == last) expect(readBack(*m_device, *m_graph, images[k], buffers[k]), "reading an image back");
             else m_graph->output(images[k]);
         }
@@ -142,7 +147,8 @@ Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declar
     for (const gpu::Buffer& buffer : buffers) ran.images.emplace_back(buffer.mapped(), buffer.mapped() + buffer.bytes());
     for (const app::Series& series : statistics.passes())
         if (series.name != kReadBack) ran.passes.push_back({series.name, series.median()});
-    for (graph::Timings& frame : ran.frames) std::erase_if(frame.passes, [](const graph::PassTime& pass) { return pass.name == kReadBack; });
+    for (graph::Timings& frame : ran.frames)
+        std::erase_if(frame.passes, [](const graph::PassTime& pass) { return pass.name == kReadBack; });
     return ran;
 }
 

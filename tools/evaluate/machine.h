@@ -30,7 +30,7 @@ public:
     std::unique_ptr<render::Renderer> makeRenderer();
     render::Renderer& renderer() { return *m_renderer; }
     // Created on first use; throw app::Complaint.
-    ao::Library& library();                  // for captured frames
+    ao::Library& library();  // for captured frames
     truth::ScreenReference& screen();
     // Makes the method's pipelines in `library`; throws app::Complaint.
     void expectMethod(ao::Library& library, const ao::MethodInfo& info);

@@ -39,7 +39,8 @@ std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options)
     for (uint32_t round = 0; round < options.rounds; ++round)
         for (size_t i = 0; i < count; ++i) {
             progress.at(round * count + i, options.candidates[i % perFalloff].label());
-            Drawing drawing = draw(machine, shot, options.candidates[i % perFalloff], options.falloffs[i / perFalloff].falloff, options.warmUp, options.frames);
+            Drawing drawing = draw(machine, shot, options.candidates[i % perFalloff], options.falloffs[i / perFalloff].falloff,
+                options.warmUp, options.frames);
             sums[i].push_back(app::percentile(drawing.own, 0.5));
             for (const app::Series& pass : drawing.passes) app::named(passes[i], pass.name).values.push_back(pass.median());
             if (round == 0) all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), {}, 0.0});
@@ -56,7 +57,8 @@ std::vector<truth::RegionMetrics> meanError(const truth::Plane& visibility, cons
     truth::Metrics metrics;
     double sum = 0.0;
     for (size_t i = 0; i < valid.size(); ++i)
-        if (valid[i]) sum += std::fabs(std::clamp(visibility.values[i], 0.0f, 1.0f) - std::clamp(reference.values[i], 0.0f, 1.0f)), ++metrics.pixels;
+        if (valid[i])
+            sum += std::fabs(std::clamp(visibility.values[i], 0.0f, 1.0f) - std::clamp(reference.values[i], 0.0f, 1.0f)), ++metrics.pixels;
     metrics.raw.eA = metrics.pixels ? float(sum / double(metrics.pixels)) : 0.0f;
     return {{truth::Region::whole, metrics}};
 }
@@ -67,11 +69,12 @@ Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao:
     // A method with a history is measured after its history has converged.
     constexpr uint32_t kGathered = 16;
     const bool gathers = (candidate.info().needs & ao::kMotion) || (candidate.info().needs && candidate.values["temporal"] > 0.0f);
-    const Machine::Ran ran = machine.run(gathers ? std::max(warmUp, kGathered) : warmUp, frames, [&](graph::Graph& graph, uint32_t index) {
-        return std::vector{shot.add(graph, candidate, falloff, index)};
-    });
+    const Machine::Ran ran = machine.run(gathers ? std::max(warmUp, kGathered) : warmUp, frames,
+        [&](graph::Graph& graph, uint32_t index) { return std::vector{shot.add(graph, candidate, falloff, index)}; });
     Drawing drawing{planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, {}, {}, ran.bytes};
-    const auto drawsTheFrame = [&](const std::string& pass) { return std::find(shot.framePasses.begin(), shot.framePasses.end(), pass) != shot.framePasses.end(); };
+    const auto drawsTheFrame = [&](const std::string& pass) {
+        return std::find(shot.framePasses.begin(), shot.framePasses.end(), pass) != shot.framePasses.end();
+    };
     app::Statistics statistics(frames);
     for (graph::Timings frame : ran.frames) {
         double all = 0.0, own = 0.0;
@@ -122,8 +125,9 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
         for (size_t d = 0; d < result.drawn.size(); ++d) {
             if (options.falloffs[result.drawn[d].falloff].text != result.references[r].falloff) continue;
             const truth::Plane &visibility = result.drawn[d].visibility, &reference = result.references[r].visibility;
-            result.rows.push_back(
-                {d, r, options.errorsOnly ? meanError(visibility, reference, regions[truth::Region::whole]) : truth::compare(visibility, reference, regions)});
+            result.rows.push_back({d, r,
+                options.errorsOnly ? meanError(visibility, reference, regions[truth::Region::whole])
+                                   : truth::compare(visibility, reference, regions)});
         }
     }
     result.seconds.metrics = (app::now() - begun) * 1e-3;

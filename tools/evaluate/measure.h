@@ -20,17 +20,17 @@ Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao:
 
 // What one candidate drew with one falloff.
 struct Drawn {
-    size_t candidate = 0;                // of Options::candidates
-    size_t falloff = 0;                  // of Options::falloffs
+    size_t candidate = 0;  // of Options::candidates
+    size_t falloff = 0;    // of Options::falloffs
     truth::Plane visibility;
-    std::vector<graph::PassTime> passes; // the method's own passes, medians in milliseconds
-    double milliseconds = 0.0;           // sum of the passes, median over rounds
+    std::vector<graph::PassTime> passes;  // the method's own passes, medians in milliseconds
+    double milliseconds = 0.0;            // sum of the passes, median over rounds
 };
 
 // One line of the tables.
 struct Row {
-    size_t drawn = 0;                    // of ShotResult::drawn
-    size_t reference = 0;                // of ShotResult::references
+    size_t drawn = 0;                           // of ShotResult::drawn
+    size_t reference = 0;                       // of ShotResult::references
     std::vector<truth::RegionMetrics> regions;  // whole first
     const truth::Metrics& whole() const { return regions.front().metrics; }
 };
@@ -42,12 +42,12 @@ struct Seconds {
 struct ShotResult {
     std::string scene, camera, remark;
     float time = 0.0f;
-    truth::CapturedFrame frame;          // with pixels only if it is written to a file
-    glm::uvec2 size{0}, guard{0};        // visible part, guard band
-    uint32_t every = 1;                  // RayChoice::every
+    truth::CapturedFrame frame;    // with pixels only if it is written to a file
+    glm::uvec2 size{0}, guard{0};  // visible part, guard band
+    uint32_t every = 1;            // RayChoice::every
     std::vector<ShotReference> references;
     std::vector<Drawn> drawn;
-    std::vector<Row> rows;               // by reference, falloff, candidate
+    std::vector<Row> rows;  // by reference, falloff, candidate
     Seconds seconds;
     bool referencesFromCache = false;
 };

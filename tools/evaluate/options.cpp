@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/arguments.h"
 #include "app/complaint.h"
@@ -53,15 +53,18 @@ void listScenes() {
 
 void expectTogether(const Options& options, bool hasSceneOptions) {
     if (options.job == Job::checkBaseline || options.job == Job::renewBaseline) {
-        if (!options.capture.empty() || !options.scenes.empty()) throw Complaint("a baseline names its own scenes: leave out --scene and --capture");
+        if (!options.capture.empty() || !options.scenes.empty())
+            throw Complaint("a baseline names its own scenes: leave out --scene and --capture");
         return;
     }
     if (options.capture.empty() != options.captureCamera.empty())
-        throw Complaint(options.capture.empty()
-                            ? "--camera: FILE.json of a captured frame needs --capture FRAME.exr, one of a scene --scene NAME"
-                            : fmt::format("--capture {}: needs --camera FILE.json with its field of view and guard band", options.capture.string()));
+        throw Complaint(
+            options.capture.empty()
+                ? "--camera: FILE.json of a captured frame needs --capture FRAME.exr, one of a scene --scene NAME"
+                : fmt::format("--capture {}: needs --camera FILE.json with its field of view and guard band", options.capture.string()));
     if (!options.capture.empty() && hasSceneOptions)
-        throw Complaint("--capture: a captured frame has its own scene, size and time; leave out --scene, --size, --time, --guard and --skip-masked");
+        throw Complaint(
+            "--capture: a captured frame has its own scene, size and time; leave out --scene, --size, --time, --guard and --skip-masked");
     if (options.capture.empty() && options.scenes.empty())
         throw Complaint("no frame: give --scene NAME, or --capture FRAME.exr with --camera FRAME.json");
     if (!options.capture.empty() && options.reference.world)
@@ -83,7 +86,9 @@ CameraChoice cameraOf(const std::string& text) {
     } else if (text.starts_with("path:")) {
         const size_t mark = text.rfind('@');
         const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
-        if (at.size() != 1) throw Complaint(fmt::format("--camera {}: write path:FILE.json@SECONDS, or path:@SECONDS for the scene's own flythrough", text));
+        if (at.size() != 1)
+            throw Complaint(
+                fmt::format("--camera {}: write path:FILE.json@SECONDS, or path:@SECONDS for the scene's own flythrough", text));
         camera.kind = CameraChoice::Kind::path;
         camera.file = text.substr(5, mark - 5);
         camera.at = at[0];
@@ -98,8 +103,10 @@ CameraChoice cameraOf(const std::string& text) {
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
-    CLI::App cli{"Measures ambient-obscurance methods against ray-traced references: error tables, pictures, an HTML page, and a baseline for regressions.",
-                 "obscura-evaluate"};
+    CLI::App cli{
+        "Measures ambient-obscurance methods against ray-traced references: error tables, pictures, an HTML page, and a baseline for "
+        "regressions.",
+        "obscura-evaluate"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(
@@ -117,41 +124,47 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     cli.option_defaults()->group("Frames");
     cli.add_option("--capture", capture, "EXR of a captured frame: Z, and N.X N.Y N.Z where there are normals; needs --camera FILE.json");
-    auto* scene = takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas"));
-    takeAll(cli.add_option(
-        "--camera", cameras,
-        "own (the view of scenes.json), scene:N, path:FILE@SECONDS, path:@SECONDS (the scene's flythrough), FILE.json; several with commas"));
+    auto* scene =
+        takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas"));
+    takeAll(cli.add_option("--camera", cameras,
+        "own (the view of scenes.json), scene:N, path:FILE@SECONDS, path:@SECONDS (the scene's flythrough), FILE.json; several with "
+        "commas"));
     auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (default: 0; on a flythrough the path's time)");
-    auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (default: 640x360; with --gallery 480x270)");
-    auto* guard = cli.add_option("--guard", options.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
-    auto* masked = cli.add_flag("--skip-masked", options.skipMasked,
-                                "Leave alpha-masked surfaces out of frame and reference, as stored references do");
+    auto* sizeOption =
+        cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (default: 640x360; with --gallery 480x270)");
+    auto* guard =
+        cli.add_option("--guard", options.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
+    auto* masked = cli.add_flag(
+        "--skip-masked", options.skipMasked, "Leave alpha-masked surfaces out of frame and reference, as stored references do");
 
     app::addVoxelArguments(cli, options.voxels, cli.option_defaults()->get_group());
 
     cli.option_defaults()->group("Methods");
     addCandidateOptions(cli, chosen);
-    cli.add_option("--resolve", chosen.resolve, "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history); default: as in the preset");
+    cli.add_option("--resolve", chosen.resolve,
+        "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history); default: as in the preset");
     takeAll(cli.add_option("--falloff", falloffTexts,
-                           "KIND:LENGTH in metres (default: quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
+        "KIND:LENGTH in metres (default: quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
     auto* frames = cli.add_option("--frames", options.frames, "Timed frames; medians are reported (default: 12; with --gallery 7)")
                        ->check(CLI::Range(1u, 100000u));
     cli.add_option("--warm-up", options.warmUp, "Untimed frames before those")->check(CLI::Range(0u, 1000u))->capture_default_str();
-    cli.add_option("--rounds", options.rounds, "Number of rounds; each runs all settings once, so that drift of the machine affects all equally; times are medians over rounds")
+    cli.add_option("--rounds", options.rounds,
+           "Number of rounds; each runs all settings once, so that drift of the machine affects all equally; times are medians over rounds")
         ->check(CLI::Range(1u, 1000u))
         ->capture_default_str();
 
     cli.option_defaults()->group("References");
-    takeAll(cli.add_option("--reference", references,
-                           "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance"));
+    takeAll(cli.add_option(
+        "--reference", references, "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance"));
     cli.add_option("--channel", channel, "Channel of that EXR (default: named after the falloff, world.quadratic_2)");
-    auto* rays = cli.add_option("--rays", options.rays.rays, "Maximum of rays per pixel (default: 4096; with --gallery 256)")->check(CLI::Range(32u, 1048576u));
+    auto* rays = cli.add_option("--rays", options.rays.rays, "Maximum of rays per pixel (default: 4096; with --gallery 256)")
+                     ->check(CLI::Range(32u, 1048576u));
     cli.add_option("--target-error", options.rays.targetError, "Standard error at which tracing a pixel stops; 0: always all rays")
         ->check(CLI::Range(0.0f, 1.0f))
         ->capture_default_str();
     cli.add_option("--seed", options.rays.seed, "Seed of the rays")->capture_default_str();
     auto* every = cli.add_option("--every", options.rays.every,
-                                 "Trace and evaluate only every N-th pixel of each row and column: 1/(N N) of the time, no SSIM and FLIP")
+                         "Trace and evaluate only every N-th pixel of each row and column: 1/(N N) of the time, no SSIM and FLIP")
                       ->check(CLI::Range(1u, 64u))
                       ->capture_default_str();
     cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
@@ -160,11 +173,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference");
     cli.add_option("--out", options.out, "Folder for visibility (EXR, PNG), error pictures, references, metrics.json and metrics.md");
     cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json");
-    auto* gallery = cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (default: gallery.html, inside --out if that is given)")
+    auto* gallery = cli.add_option("--gallery", page,
+                           "One HTML page of every method on a list of scenes, cameras and falloffs (default: gallery.html, inside --out "
+                           "if that is given)")
                         ->expected(0, 1)
                         ->default_str(kGallery);
     auto* checkOption = cli.add_option("--check-baseline", check, "Fail if a method's error exceeds this baseline");
-    auto* renewOption = cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the cells of those methods)");
+    auto* renewOption =
+        cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the cells of those methods)");
     gallery->excludes(checkOption)->excludes(renewOption);
     checkOption->excludes(renewOption);
     every->excludes(gallery)->excludes(checkOption)->excludes(renewOption);  // pages and baselines need all pixels

@@ -18,10 +18,10 @@ enum class Job { evaluate, gallery, checkBaseline, renewBaseline };
 // Camera of a scene.
 struct CameraChoice {
     enum class Kind { own, lens, path, file } kind = Kind::own;  // own: the manifest's view, or the file's first camera if there is none
-    std::string text;            // as given on the command line
-    std::filesystem::path file;  // path (empty: the scene's flythrough), file
+    std::string text;                                            // as given on the command line
+    std::filesystem::path file;                                  // path (empty: the scene's flythrough), file
     int lens = 0;
-    float at = 0.0f;             // path: seconds
+    float at = 0.0f;  // path: seconds
 };
 CameraChoice cameraOf(const std::string& text);  // throws app::Complaint
 
@@ -31,14 +31,14 @@ struct RayChoice {
     float targetError = 0.005f;  // standard error at which tracing a pixel stops; 0: always `rays`
     uint32_t seed = 1;
     bool cache = true;
-    uint32_t every = 1;          // step between evaluated pixels in rows and columns, px; no others are traced
+    uint32_t every = 1;  // step between evaluated pixels in rows and columns, px; no others are traced
 };
 
 // References: rendered ones, or a file.
 struct ReferenceChoice {
     bool world = false, screen = false;
     std::filesystem::path file;
-    std::string channel;         // empty: the channel named after the falloff
+    std::string channel;  // empty: the channel named after the falloff
 };
 
 struct Options {
@@ -47,8 +47,8 @@ struct Options {
     std::filesystem::path capture, captureCamera;
     std::vector<std::string> scenes;
     std::vector<CameraChoice> cameras;
-    bool usualCameras = false;   // `cameras` are defaults: those that a scene lacks are skipped
-    std::optional<float> time;   // seconds; empty: a flythrough's own time, else 0
+    bool usualCameras = false;  // `cameras` are defaults: those that a scene lacks are skipped
+    std::optional<float> time;  // seconds; empty: a flythrough's own time, else 0
     glm::uvec2 size{640, 360};
     float guard = 0.1f;
     bool skipMasked = false;
@@ -59,7 +59,7 @@ struct Options {
     ReferenceChoice reference;
     RayChoice rays;
     uint32_t frames = 12, warmUp = 3, rounds = 1;
-    bool errorsOnly = false;     // eA alone, without regions and perceptual metrics; for baselines
+    bool errorsOnly = false;  // eA alone, without regions and perceptual metrics; for baselines
     // Output.
     std::filesystem::path json, out, page, captureOut, baseline;
     // Device.

@@ -41,8 +41,8 @@ float mean(const truth::Plane& plane) {
 
 void append(References& all, const std::string& kind, const truth::Reference& made, const std::vector<FalloffChoice>& falloffs) {
     for (size_t i = 0; i < falloffs.size(); ++i)
-        all.list.push_back(
-            {kind, falloffs[i].text, kind + "." + falloffs[i].fileName(), open(made.channels[i].obscurance), made.meanError(i), mean(made.rays)});
+        all.list.push_back({kind, falloffs[i].text, kind + "." + falloffs[i].fileName(), open(made.channels[i].obscurance),
+            made.meanError(i), mean(made.rays)});
     all.fromCache = all.fromCache && made.fromCache;
 }
 
@@ -72,20 +72,22 @@ void readStored(References& all, const Shot& shot, const Options& options) {
     const truth::Picture picture = truth::readExr(options.reference.file);
     const glm::uvec2 visible = shot.frame.visible();
     if (picture.width != visible.x || picture.height != visible.y)
-        throw Complaint(
-            fmt::format("{}: is {} x {} pixels, but the frame's visible part is {} x {}", file, picture.width, picture.height, visible.x, visible.y));
+        throw Complaint(fmt::format(
+            "{}: is {} x {} pixels, but the frame's visible part is {} x {}", file, picture.width, picture.height, visible.x, visible.y));
     for (const FalloffChoice& falloff : options.falloffs) {
         const std::string channel = channelOf(options, falloff, &picture);
         truth::Plane obscurance = picture.plane(channel);
         for (size_t i = 0; i < obscurance.values.size(); ++i)
             if (const float a = obscurance.values[i]; !(a >= -0.001f && a <= 1.001f))
-                throw Complaint(
-                    fmt::format("{}: {} is {} at pixel ({}, {}); obscurance must be in [0, 1]", file, channel, a, i % visible.x, i / visible.x));
-        all.list.push_back({options.reference.file.filename().string() + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
+                throw Complaint(fmt::format(
+                    "{}: {} is {} at pixel ({}, {}); obscurance must be in [0, 1]", file, channel, a, i % visible.x, i / visible.x));
+        all.list.push_back(
+            {options.reference.file.filename().string() + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
     }
 }
 
-truth::Reference traceWorld(const Shot& shot, const Options& options, const std::vector<truth::RayFalloff>& falloffs, truth::ReferenceCache& cache) {
+truth::Reference traceWorld(
+    const Shot& shot, const Options& options, const std::vector<truth::RayFalloff>& falloffs, truth::ReferenceCache& cache) {
     const std::vector<scene::PosedPrimitive> primitives = scene::pose(*shot.world, shot.time);
     truth::WorldGeometry geometry;
     geometry.skipMasked = shot.skipMasked;
@@ -99,7 +101,7 @@ truth::Reference traceWorld(const Shot& shot, const Options& options, const std:
 }
 
 truth::Reference traceScreen(Machine& machine, const Shot& shot, const Options& options, const std::vector<truth::RayFalloff>& falloffs,
-                             truth::ReferenceCache& cache) {
+    truth::ReferenceCache& cache) {
     truth::ScreenOptions rays;
     setRays(rays, options.rays);
     return cache.get(truth::screenKey(shot.frame, falloffs, rays), [&] {
@@ -119,8 +121,8 @@ void expectReferenceFile(const Options& options) {
         if (picture.find(channel)) continue;
         std::vector<std::string> names;
         for (const truth::Picture::Channel& known : picture.channels) names.push_back(known.name);
-        throw Complaint(fmt::format("{}: no channel {} for {}; {} (--channel names one)", options.reference.file.string(), channel, falloff.text,
-                                    app::choices(channel, names)));
+        throw Complaint(fmt::format("{}: no channel {} for {}; {} (--channel names one)", options.reference.file.string(), channel,
+            falloff.text, app::choices(channel, names)));
     }
 }
 
@@ -131,7 +133,7 @@ References referencesOf(Machine& machine, const Shot& shot, const Options& optio
     std::vector<truth::RayFalloff> falloffs;
     for (const FalloffChoice& falloff : options.falloffs) falloffs.push_back(truth::rayFalloff(falloff.falloff));
     truth::ReferenceCache cache(options.rays.cache ? scene::cacheFolder() : std::filesystem::path(),
-                                [&](const std::string& line) { all.remarks.push_back(app::oneLine(line)); });
+        [&](const std::string& line) { all.remarks.push_back(app::oneLine(line)); });
     if (options.reference.world) append(all, "world", traceWorld(shot, options, falloffs, cache), options.falloffs);
     if (options.reference.screen) append(all, "screen", traceScreen(machine, shot, options, falloffs, cache), options.falloffs);
     if (!options.reference.file.empty()) readStored(all, shot, options);

@@ -7,18 +7,18 @@
 namespace obscura::evaluate {
 
 struct ShotReference {
-    std::string kind;            // "world", "screen", or "FILE.exr:CHANNEL"
-    std::string falloff;         // FalloffChoice::text
-    std::string fileName;        // "world.quadratic_2"
-    truth::Plane visibility;     // visible part
-    float error = 0.0f;          // mean standard error of a pixel; 0 if read from a file
-    float rays = 0.0f;           // mean rays per pixel; 0 if read from a file
+    std::string kind;         // "world", "screen", or "FILE.exr:CHANNEL"
+    std::string falloff;      // FalloffChoice::text
+    std::string fileName;     // "world.quadratic_2"
+    truth::Plane visibility;  // visible part
+    float error = 0.0f;       // mean standard error of a pixel; 0 if read from a file
+    float rays = 0.0f;        // mean rays per pixel; 0 if read from a file
 };
 
 struct References {
     std::vector<ShotReference> list;  // by kind, then falloff
-    double seconds = 0.0;        // time of making or reading them
-    bool fromCache = false;      // all rendered ones came from the cache
+    double seconds = 0.0;             // time of making or reading them
+    bool fromCache = false;           // all rendered ones came from the cache
     std::vector<std::string> remarks;
 };
 

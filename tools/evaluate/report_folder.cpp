@@ -61,8 +61,8 @@ void writeFolder(const std::vector<ShotResult>& shots, const Options& options, c
     for (const ShotResult& shot : shots) {
         const fs::path stem = options.out / shotFileName(shot);
         for (const Drawn& drawn : shot.drawn) {
-            const std::string name = fmt::format("{}.{}.{}", stem.string(), options.candidates[drawn.candidate].fileName(),
-                                                 options.falloffs[drawn.falloff].fileName());
+            const std::string name = fmt::format(
+                "{}.{}.{}", stem.string(), options.candidates[drawn.candidate].fileName(), options.falloffs[drawn.falloff].fileName());
             truth::writeExr(name + ".visibility.exr", one("Y", drawn.visibility));
             app::writePng(name + ".visibility.png", greyPicture(drawn.visibility));
         }
@@ -70,8 +70,8 @@ void writeFolder(const std::vector<ShotResult>& shots, const Options& options, c
             const Drawn& drawn = shot.drawn[row.drawn];
             const ShotReference& reference = shot.references[row.reference];
             app::writePng(fmt::format("{}.{}.{}.error.{}.png", stem.string(), options.candidates[drawn.candidate].fileName(),
-                                      options.falloffs[drawn.falloff].fileName(), safe(reference.fileName.substr(0, reference.fileName.find('.')))),
-                          errorPicture(evaluatedPixels(drawn.visibility, shot.every), evaluatedPixels(reference.visibility, shot.every)));
+                              options.falloffs[drawn.falloff].fileName(), safe(reference.fileName.substr(0, reference.fileName.find('.')))),
+                errorPicture(evaluatedPixels(drawn.visibility, shot.every), evaluatedPixels(reference.visibility, shot.every)));
         }
         writeReferences(stem, shot);
     }

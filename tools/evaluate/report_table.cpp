@@ -10,16 +10,17 @@ namespace obscura::evaluate {
 namespace {
 
 std::string shotTitle(const ShotResult& shot) {
-    return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px{}", shot.scene, shot.camera, shot.time, shot.size.x, shot.size.y,
-                       shot.guard.x, shot.guard.y, shot.every > 1 ? fmt::format(", evaluated at every {} x {} px", shot.every, shot.every) : "");
+    return fmt::format("{}, camera {}, {:g} s, {} x {} px, guard band {} x {} px{}", shot.scene, shot.camera, shot.time, shot.size.x,
+        shot.size.y, shot.guard.x, shot.guard.y,
+        shot.every > 1 ? fmt::format(", evaluated at every {} x {} px", shot.every, shot.every) : "");
 }
 
 // SSIM and FLIP need neighbouring pixels: a dash with --every.
 std::string perceptual(const truth::Metrics& metrics, float value) { return metrics.perceptual ? fmt::format("{:.4f}", value) : "-"; }
 
 std::string secondsLine(const ShotResult& shot) {
-    return fmt::format("frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s", shot.seconds.frame, shot.seconds.references,
-                       shot.referencesFromCache ? " (cached)" : "", shot.seconds.methods, shot.seconds.metrics);
+    return fmt::format("frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s", shot.seconds.frame,
+        shot.seconds.references, shot.referencesFromCache ? " (cached)" : "", shot.seconds.methods, shot.seconds.metrics);
 }
 
 // Rays and standard errors of the references.
@@ -27,8 +28,8 @@ std::string referenceLines(const ShotResult& shot, const char* bullet) {
     std::string text;
     for (const ShotReference& reference : shot.references)
         if (reference.rays > 0.0f)
-            text += fmt::format("{}{} {}: {:.0f} rays per pixel, standard error {:.4f} (means)\n", bullet, reference.kind, reference.falloff,
-                                reference.rays, reference.error);
+            text += fmt::format("{}{} {}: {:.0f} rays per pixel, standard error {:.4f} (means)\n", bullet, reference.kind,
+                reference.falloff, reference.rays, reference.error);
     return text;
 }
 
@@ -37,8 +38,10 @@ std::string referenceLines(const ShotResult& shot, const char* bullet) {
 std::string markdown(const std::vector<ShotResult>& shots, const Options& options, const About& about) {
     std::string text = fmt::format(
         "# Error of ambient-obscurance methods\n\n"
-        "Errors are of visibility (1 open, 0 blocked), method minus reference, over pixels that are not sky: a positive bias is too bright. eA is the\n"
-        "mean absolute error, e<5% the share of pixels within 0.05, p99 the 99th percentile. g* is the exponent on visibility that fits best, eA g* the error with it.\n"
+        "Errors are of visibility (1 open, 0 blocked), method minus reference, over pixels that are not sky: a positive bias is too "
+        "bright. eA is the\n"
+        "mean absolute error, e<5% the share of pixels within 0.05, p99 the 99th percentile. g* is the exponent on visibility that fits "
+        "best, eA g* the error with it.\n"
         "Times are medians of {} frames on {}, the method's own passes; compare them only inside one table.\n",
         about.frames, about.device);
     for (const ShotResult& shot : shots) {
@@ -54,24 +57,26 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             text += fmt::format(
                 "| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} | {} | {:.2f} | {:.4f} | {:.2f} |\n",
                 candidate.info().id, candidate.preset, candidate.settings.empty() ? "" : " ", fmt::join(candidate.settings, " "),
-                shot.references[row.reference].falloff, shot.references[row.reference].kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99,
-                perceptual(m, m.ssim), perceptual(m, m.flipMean), m.gamma, m.adjusted.eA, drawn.milliseconds);
+                shot.references[row.reference].falloff, shot.references[row.reference].kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse,
+                m.raw.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), m.gamma, m.adjusted.eA, drawn.milliseconds);
         }
         text +=
-            "\n| method | preset | falloff | reference | region | pixels | eA | e<5% | bias | rmse | p99 | ssim |\n|---|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
+            "\n| method | preset | falloff | reference | region | pixels | eA | e<5% | bias | rmse | p99 | ssim "
+            "|\n|---|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
         for (const Row& row : shot.rows)
             for (size_t i = 1; i < row.regions.size(); ++i) {
                 const truth::Metrics& m = row.regions[i].metrics;
                 const Candidate& candidate = options.candidates[shot.drawn[row.drawn].candidate];
-                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} |\n", candidate.info().id,
-                                    candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
-                                    truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse,
-                                    m.raw.p99, perceptual(m, m.ssim));
+                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} |\n",
+                    candidate.info().id, candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
+                    truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99,
+                    perceptual(m, m.ssim));
             }
         text += "\n| method | preset | falloff | pass | ms |\n|---|---|---|---|--:|\n";
         for (const Drawn& drawn : shot.drawn) {
             const Candidate& candidate = options.candidates[drawn.candidate];
-            const std::string lead = fmt::format("| {} | {} | {} | ", candidate.info().id, candidate.preset, options.falloffs[drawn.falloff].text);
+            const std::string lead =
+                fmt::format("| {} | {} | {} | ", candidate.info().id, candidate.preset, options.falloffs[drawn.falloff].text);
             for (const graph::PassTime& pass : drawn.passes) text += fmt::format("{}{} | {:.3f} |\n", lead, pass.name, pass.milliseconds);
             text += fmt::format("{}**all** | {:.3f} |\n", lead, drawn.milliseconds);
         }
@@ -91,15 +96,15 @@ std::string textTable(const std::vector<ShotResult>& shots, const Options& optio
             kind = std::max(kind, shot.references[row.reference].kind.size());
             falloff = std::max(falloff, shot.references[row.reference].falloff.size());
         }
-        text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>7} {:>6} {:>8} {:>7} {:>6} {:>7} {:>7} {:>8}\n", "method", name, "falloff", falloff,
-                            "reference", kind, "eA", "e<5%", "bias", "rmse", "p99", "ssim", "flip", "ms");
+        text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>7} {:>6} {:>8} {:>7} {:>6} {:>7} {:>7} {:>8}\n", "method", name, "falloff",
+            falloff, "reference", kind, "eA", "e<5%", "bias", "rmse", "p99", "ssim", "flip", "ms");
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
             const ShotReference& reference = shot.references[row.reference];
             const truth::Metrics& m = row.whole();
             text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:>7} {:>7} {:8.2f}\n",
-                                options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, m.raw.eA,
-                                m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), drawn.milliseconds);
+                options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, m.raw.eA, m.raw.e5,
+                m.raw.bias, m.raw.rmse, m.raw.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), drawn.milliseconds);
         }
         text += referenceLines(shot, "  ") + "  " + secondsLine(shot) + "\n\n";
     }

@@ -13,12 +13,12 @@
 namespace obscura::evaluate {
 
 struct Shot {
-    std::string scene;    // "sponza", or the captured file's stem
-    std::string camera;   // as in CameraChoice::text, "capture" for a captured frame
-    float time = 0.0f;    // seconds
+    std::string scene;   // "sponza", or the captured file's stem
+    std::string camera;  // as in CameraChoice::text, "capture" for a captured frame
+    float time = 0.0f;   // seconds
     truth::CapturedFrame frame;
-    std::string remark;   // one line, if an input was missing and was reconstructed
-    double seconds = 0.0; // time of loading and drawing the frame
+    std::string remark;    // one line, if an input was missing and was reconstructed
+    double seconds = 0.0;  // time of loading and drawing the frame
 
     // The posed triangles for world references, computed on first use; null for a captured frame.
     std::shared_ptr<const scene::World> world;
@@ -53,7 +53,7 @@ void forEachShot(Machine& machine, const Options& options, const TakeShot& take)
 
 // A frame read back from render::Outputs: linear depth and packed normals, `size` with guard band.
 truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
-                                   const std::vector<std::byte>& normals);
+    const std::vector<std::byte>& normals);
 
 // The two sources of forEachShot().
 void captureShot(Machine& machine, const Options& options, const TakeShot& take);

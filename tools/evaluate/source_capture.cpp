@@ -77,9 +77,11 @@ gpu::Image upload(gpu::Device& device, VkFormat format, const glm::uvec2& size, 
     const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     gpu::Image image;
     gpu::Status status = gpu::Image::create(device, {format, size.x, size.y, 1, 1, usage}, name, image);
-    if (status == gpu::Status::ok) status = gpu::upload(device, image, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    if (status == gpu::Status::ok)
+        status = gpu::upload(device, image, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     if (status != gpu::Status::ok)
-        throw Complaint(fmt::format("{}: {} while uploading the captured frame", device.caps().deviceName, gpu::name(status)), app::kFailed);
+        throw Complaint(
+            fmt::format("{}: {} while uploading the captured frame", device.caps().deviceName, gpu::name(status)), app::kFailed);
     return image;
 }
 
@@ -124,14 +126,17 @@ void captureShot(Machine& machine, const Options& options, const TakeShot& take)
     constexpr uint32_t kNotCaptured = ao::kMotion | ao::kLayers | ao::kVolume;
     for (const Candidate& candidate : options.candidates)
         if (ao::needs(candidate.values) & kNotCaptured & ~uint32_t(ao::kMotion))
-            throw Complaint(fmt::format("--method {}: needs depth layers or a volume, which a captured frame does not have; measure it on a --scene",
-                                        candidate.label()));
+            throw Complaint(
+                fmt::format("--method {}: needs depth layers or a volume, which a captured frame does not have; measure it on a --scene",
+                    candidate.label()));
     shot.library = &machine.library();
     const std::shared_ptr<OnGpu> images = onGpu(machine.device(), shot.frame);
-    shot.add = [&library = machine.library(), images](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {
+    shot.add = [&library = machine.library(), images](
+                   graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {
         ao::Frame lens = images->lens;
         lens.index = index;
-        const ao::Sources sources{import(graph, "captured depth", images->depth), import(graph, "captured normals", images->normals), {}, true};
+        const ao::Sources sources{
+            import(graph, "captured depth", images->depth), import(graph, "captured normals", images->normals), {}, true};
         if (index == 0) library.discardHistory();
         return library.add(graph, lens, sources, falloff, candidate.values).visibility;
     };

@@ -24,15 +24,17 @@ std::optional<fs::path> pathFile(const CameraChoice& choice, const SceneFile& fi
 }
 
 // Empty if a default camera does not exist in the scene.
-std::optional<scene::Camera> cameraFor(const CameraChoice& choice, const SceneFile& file, const scene::World* world, float time, bool usual) {
+std::optional<scene::Camera> cameraFor(
+    const CameraChoice& choice, const SceneFile& file, const scene::World* world, float time, bool usual) {
     switch (choice.kind) {
         case CameraChoice::Kind::path: {
             const auto path = pathFile(choice, file);
             if (path) return scene::loadCameraPath(*path).at(choice.at);
             if (usual) return std::nullopt;
-            throw Complaint(choice.file.empty() ? fmt::format("--camera {}: {} has no flythrough of its own; name one: path:FILE.json@SECONDS",
-                                                              choice.text, file.name)
-                                                : fmt::format("--camera {}: no such file", choice.text));
+            throw Complaint(
+                choice.file.empty()
+                    ? fmt::format("--camera {}: {} has no flythrough of its own; name one: path:FILE.json@SECONDS", choice.text, file.name)
+                    : fmt::format("--camera {}: no such file", choice.text));
         }
         case CameraChoice::Kind::file: {
             std::error_code ignored;
@@ -44,9 +46,8 @@ std::optional<scene::Camera> cameraFor(const CameraChoice& choice, const SceneFi
             const scene::Instance& first = world->instances().front();
             const int count = scene::lensCount(*first.model);
             if (choice.lens >= count)
-                throw Complaint(
-                    fmt::format("--camera {}: {} has {} cameras; {}", choice.text, file.name, count,
-                                count ? fmt::format("write scene:0 to scene:{}", count - 1) : "write own, path:FILE.json@SECONDS, or FILE.json"));
+                throw Complaint(fmt::format("--camera {}: {} has {} cameras; {}", choice.text, file.name, count,
+                    count ? fmt::format("write scene:0 to scene:{}", count - 1) : "write own, path:FILE.json@SECONDS, or FILE.json"));
             return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, time + first.timeOffset), choice.lens);
         }
         case CameraChoice::Kind::own: break;
@@ -96,7 +97,7 @@ void capture(Machine& machine, const Options& options, const scene::World& world
 }  // namespace
 
 truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
-                                   const std::vector<std::byte>& normals) {
+    const std::vector<std::byte>& normals) {
     truth::CapturedFrame frame = truth::emptyFrame(visible, (size - visible) / 2u, camera.fovY, camera.nearPlane, camera);
     std::memcpy(frame.depth.data(), depth.data(), depth.size());
     std::vector<uint32_t> packed(frame.depth.size());
@@ -117,10 +118,12 @@ void expectScenes(const Options& options) {
 
 size_t shotCount(const Options& options) { return options.capture.empty() ? options.scenes.size() * options.cameras.size() : 1; }
 
-LoadedScene::LoadedScene(Machine& machine, const std::string& name) : m_machine(machine), m_file(findScene(name)), m_world(std::make_shared<scene::World>()) {
+LoadedScene::LoadedScene(Machine& machine, const std::string& name)
+    : m_machine(machine), m_file(findScene(name)), m_world(std::make_shared<scene::World>()) {
     const double begun = app::now();
     m_world->add({.model = scene::loadGltf(m_file.file)});
-    if (m_world->triangleCount() == 0) throw Complaint(fmt::format("--scene {}: contains nothing to draw; it needs at least one triangle", name));
+    if (m_world->triangleCount() == 0)
+        throw Complaint(fmt::format("--scene {}: contains nothing to draw; it needs at least one triangle", name));
     if (machine.newRenderer().load(*m_world) != gpu::Status::ok)
         throw Complaint(fmt::format("{}: cannot be uploaded to {}", m_file.file.string(), machine.deviceName()), app::kFailed);
     m_seconds = (app::now() - begun) * 1e-3;
@@ -139,8 +142,8 @@ std::optional<Shot> LoadedScene::shot(const Options& options, const CameraChoice
     shot.world = m_world;
     shot.skipMasked = options.skipMasked;
     shot.library = &m_machine.renderer().library();
-    shot.add = [&renderer = m_machine.renderer(), world = m_world, wanted](graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff,
-                                                                           uint32_t index) {
+    shot.add = [&renderer = m_machine.renderer(), world = m_world, wanted](
+                   graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {
         render::FrameOptions frame = wanted;
         frame.method = &candidate.values;
         frame.falloff = falloff;

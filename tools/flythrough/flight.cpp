@@ -49,21 +49,27 @@ std::filesystem::path pictureFile(const std::filesystem::path& folder, uint32_t 
 }  // namespace
 
 bool hasHistory(const evaluate::Candidate& candidate) { return candidate.values.has("temporal") && candidate.values["temporal"] > 0.0f; }
-const ao::Preset& ownFilter(const evaluate::Candidate& candidate) { return *ao::findResolvePreset(hasHistory(candidate) ? "temporal" : "spatial"); }
+const ao::Preset& ownFilter(const evaluate::Candidate& candidate) {
+    return *ao::findResolvePreset(hasHistory(candidate) ? "temporal" : "spatial");
+}
 
 evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Preset& filter) {
     evaluate::Candidate result = candidate;
     result.values.resolve(filter);
-    const bool asked = hasHistory(candidate) ||
-                       std::any_of(candidate.settings.begin(), candidate.settings.end(), [](const std::string& s) { return s.starts_with("temporal="); });
+    const bool asked = hasHistory(candidate) || std::any_of(candidate.settings.begin(), candidate.settings.end(),
+                                                    [](const std::string& s) { return s.starts_with("temporal="); });
     if (asked && hasHistory(result)) result.values.set("temporal", candidate.values["temporal"]);
     return result;
 }
 
 Flight::Flight(evaluate::Machine& machine, const Script& script, const Settings& settings)
-    : m_machine(machine), m_settings(settings), m_stage(script), m_falloff(settings.falloff ? *settings.falloff : evaluate::falloffs({script.falloff})[0]) {
+    : m_machine(machine),
+      m_settings(settings),
+      m_stage(script),
+      m_falloff(settings.falloff ? *settings.falloff : evaluate::falloffs({script.falloff})[0]) {
     for (const Event& event : script.events)
-        if (event.frame > 0 && event.frame >= settings.first && event.frame < settings.end && (m_events.empty() || m_events.back() != event.frame))
+        if (event.frame > 0 && event.frame >= settings.first && event.frame < settings.end &&
+            (m_events.empty() || m_events.back() != event.frame))
             m_events.push_back(event.frame);
     m_renderer = machine.makeRenderer();
     if (m_renderer->load(m_stage.worldAt(0)) != gpu::Status::ok)
@@ -133,9 +139,12 @@ void Flight::trace() {
         progress.at(frame - begin);
         const std::vector<scene::PosedPrimitive> primitives = scene::pose(m_stage.worldAt(frame), m_stage.worldTimeAt(frame));
         const std::string key = truth::worldKey(primitives, {}, m_geometry[frame].frame, falloffs, rays);
-        const truth::Reference reference = cache.get(key, [&] { return truth::WorldReference(primitives).trace(m_geometry[frame].frame, falloffs, rays); });
+        const truth::Reference reference =
+            cache.get(key, [&] { return truth::WorldReference(primitives).trace(m_geometry[frame].frame, falloffs, rays); });
         // The game looks references up by this key, which it knows before drawing.
-        cache.note(truth::viewKey(m_stage.worldAt(frame), m_stage.worldTimeAt(frame), m_stage.cameraAt(frame), m_settings.size, {}, falloffs[0]), key);
+        cache.note(
+            truth::viewKey(m_stage.worldAt(frame), m_stage.worldTimeAt(frame), m_stage.cameraAt(frame), m_settings.size, {}, falloffs[0]),
+            key);
         m_references[frame] = {reference.channels[0].obscurance, reference.channels[0].error};
         for (float& v : m_references[frame].visibility.values) v = 1.0f - v;
     }
@@ -144,8 +153,19 @@ void Flight::trace() {
 std::string Flight::keyOf(const evaluate::Candidate& candidate, const ao::Preset& filter) const {
     scene::Hash hash;
     const Script& script = m_stage.script();
-    hash.add(kMeasure).add(script.name).add(script.scene).add(m_falloff.text).add(m_settings.size.x).add(m_settings.size.y).add(m_settings.guard);
-    hash.add(m_settings.length).add(m_settings.rays).add(m_settings.seed).add(int(m_settings.still)).add(std::string(candidate.info().id)).add(std::string(filter.id));
+    hash.add(kMeasure)
+        .add(script.name)
+        .add(script.scene)
+        .add(m_falloff.text)
+        .add(m_settings.size.x)
+        .add(m_settings.size.y)
+        .add(m_settings.guard);
+    hash.add(m_settings.length)
+        .add(m_settings.rays)
+        .add(m_settings.seed)
+        .add(int(m_settings.still))
+        .add(std::string(candidate.info().id))
+        .add(std::string(filter.id));
     const evaluate::Candidate used = filtered(candidate, filter);
     for (const float value : used.values.values()) hash.add(value);
     for (const std::string& setting : candidate.settings)
@@ -158,7 +178,7 @@ std::string Flight::keyOf(const evaluate::Candidate& candidate, const ao::Preset
     for (const Event& event : script.events)
         hash.add(event.frame).add(event.box).add(&event.size, sizeof(event.size)).add(&event.at, sizeof(event.at)).add(int(event.gone));
     hash.add(m_geometry[0].frame.depth.data(), m_geometry[0].frame.depth.size() * sizeof(float));  // identifies the scene
-    for (const gpu::EmbeddedShader& shader : ao::shaders())  // identify the method
+    for (const gpu::EmbeddedShader& shader : ao::shaders())                                        // identify the method
         if (mayRun(used, shader.name)) hash.add(shader.spirv.data(), shader.spirv.size_bytes());
     return hash.hex();
 }
@@ -195,10 +215,13 @@ Flight::Drawn Flight::draw(const evaluate::Candidate& candidate, uint32_t frame,
         std::memcpy(&half, bytes.data() + 2 * i, 2);
         drawn.visibility.values[i] = glm::unpackHalf1x16(half);
         if (!std::isfinite(drawn.visibility.values[i]))
-            throw Complaint(fmt::format("{} drew {} in frame {} of {}", candidate.label(), drawn.visibility.values[i], frame, m_stage.script().name), app::kFailed);
+            throw Complaint(
+                fmt::format("{} drew {} in frame {} of {}", candidate.label(), drawn.visibility.values[i], frame, m_stage.script().name),
+                app::kFailed);
     }
     for (graph::PassTime& pass : ran.passes)
-        if (std::find(m_framePasses.begin(), m_framePasses.end(), pass.name) == m_framePasses.end()) drawn.passes.push_back(std::move(pass));
+        if (std::find(m_framePasses.begin(), m_framePasses.end(), pass.name) == m_framePasses.end())
+            drawn.passes.push_back(std::move(pass));
     return drawn;
 }
 
@@ -233,7 +256,9 @@ Part Flight::measure(const evaluate::Candidate& chosen, const ao::Preset& filter
             const double e = double(picture.values[i]) - double(m_references[frame].visibility.values[i]);
             error += e, absolute += std::fabs(e), square += e * e, ++pixels;
         }
-        if (pixels) row.bias = float(error / double(pixels)), row.eA = float(absolute / double(pixels)), row.rmse = float(std::sqrt(square / double(pixels)));
+        if (pixels)
+            row.bias = float(error / double(pixels)), row.eA = float(absolute / double(pixels)),
+            row.rmse = float(std::sqrt(square / double(pixels)));
         if (frame > 0) {
             const truth::Correspondence way = truth::correspond(geometry.frame, m_geometry[frame - 1].frame, geometry.motion);
             const truth::Change change = truth::change(way, picture, pictures[frame - 1], m_references[frame], m_references[frame - 1]);
@@ -249,7 +274,7 @@ Part Flight::measure(const evaluate::Candidate& chosen, const ao::Preset& filter
     for (const uint32_t event : m_events) {
         const std::span<const truth::Plane> after(pictures.begin() + event, pictures.begin() + endOfState(event));
         const truth::Lag lag = truth::lag(pictures[event - 1], after, m_references[event - 1].visibility, m_references[event].visibility,
-                                          truth::stayed(m_geometry[event - 1].frame, m_geometry[event].frame));
+            truth::stayed(m_geometry[event - 1].frame, m_geometry[event].frame));
         part.events.push_back({event, uint32_t(lag.pixels), lag.t90, lag.ghost});
     }
     if (m_settings.still && m_settings.first == 0) {
@@ -269,7 +294,8 @@ Part Flight::measure(const evaluate::Candidate& chosen, const ao::Preset& filter
 void Flight::writeReferencePictures() const {
     const std::filesystem::path folder = m_settings.out / "frames" / (m_stage.script().name + ".reference");
     app::expectFolder(folder);
-    for (uint32_t frame = m_settings.first; frame < m_settings.end; ++frame) app::writePng(pictureFile(folder, frame), grey(m_references[frame].visibility));
+    for (uint32_t frame = m_settings.first; frame < m_settings.end; ++frame)
+        app::writePng(pictureFile(folder, frame), grey(m_references[frame].visibility));
 }
 
 }  // namespace obscura::flythrough

@@ -9,7 +9,7 @@
 
 namespace obscura::flythrough {
 
-bool hasHistory(const evaluate::Candidate& candidate);  // its values have a history
+bool hasHistory(const evaluate::Candidate& candidate);              // its values have a history
 const ao::Preset& ownFilter(const evaluate::Candidate& candidate);  // "temporal" if it has a history, else "spatial"
 // The candidate with a resolve preset; a history length from a setting or from the candidate's preset is kept.
 evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Preset& filter);
@@ -17,14 +17,14 @@ evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Pre
 struct Settings {
     glm::uvec2 size{320, 180};
     float guard = 0.1f;
-    uint32_t length = 64;                    // frames of the whole flythrough
-    uint32_t first = 0, end = 64;            // frames measured in this run
+    uint32_t length = 64;          // frames of the whole flythrough
+    uint32_t first = 0, end = 64;  // frames measured in this run
     uint32_t rays = 256, seed = 1;
     bool cache = true;
     std::optional<evaluate::FalloffChoice> falloff;  // replaces the script's
-    std::filesystem::path out;               // pictures go to out/frames/NAME
+    std::filesystem::path out;                       // pictures go to out/frames/NAME
     bool pictures = true;
-    bool still = true;                       // measure static noise as well
+    bool still = true;  // measure static noise as well
 };
 
 // Each flight has its own renderer, so several can exist at once.
@@ -37,14 +37,14 @@ public:
     Part measure(const evaluate::Candidate& candidate, const ao::Preset& filter);
     // A chunk with its key and names, but without rows.
     Part empty(const evaluate::Candidate& candidate, const ao::Preset& filter) const;
-    void writeReferencePictures() const;     // out/frames/NAME.reference
+    void writeReferencePictures() const;  // out/frames/NAME.reference
     const Script& script() const { return m_stage.script(); }
 
 private:
     struct Geometry {
         truth::CapturedFrame frame;
         std::vector<glm::vec2> motion;
-        truth::Mask visible;                 // not sky
+        truth::Mask visible;  // not sky
     };
     struct Drawn {
         truth::Plane visibility;
@@ -62,10 +62,10 @@ private:
     Stage m_stage;
     std::unique_ptr<render::Renderer> m_renderer;
     evaluate::FalloffChoice m_falloff;
-    std::vector<Geometry> m_geometry;        // by frame, from 0
-    std::vector<truth::Traced> m_references; // by frame; empty before first - 1
-    std::vector<std::string> m_framePasses;  // passes that draw the frame for every method
-    std::vector<uint32_t> m_events;          // frames of events in [first, end)
+    std::vector<Geometry> m_geometry;         // by frame, from 0
+    std::vector<truth::Traced> m_references;  // by frame; empty before first - 1
+    std::vector<std::string> m_framePasses;   // passes that draw the frame for every method
+    std::vector<uint32_t> m_events;           // frames of events in [first, end)
 };
 
 }  // namespace obscura::flythrough

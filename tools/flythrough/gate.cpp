@@ -71,18 +71,20 @@ Calm readCalm(const fs::path& file) {
 
 std::string calmText(const Calm& calm) {
     // Not dumped by the JSON library: one line per row keeps diffs readable.
-    const Json head{{"about", "Flicker of error, static noise and lag (frames). A row may not worsen by more than `relative` of itself and `absolute`. Renew: "
-                              "obscura-flythrough --renew-baseline THIS"},
-                    {"size", {calm.size.x, calm.size.y}}, {"length", calm.length}, {"rays", calm.rays}, {"relative", calm.relative},
-                    {"absolute", calm.absolute}, {"flythroughs", calm.flythroughs}, {"filters", calm.filters}};
+    const Json head{{"about",
+                        "Flicker of error, static noise and lag (frames). A row may not worsen by more than `relative` of itself and "
+                        "`absolute`. Renew: "
+                        "obscura-flythrough --renew-baseline THIS"},
+        {"size", {calm.size.x, calm.size.y}}, {"length", calm.length}, {"rays", calm.rays}, {"relative", calm.relative},
+        {"absolute", calm.absolute}, {"flythroughs", calm.flythroughs}, {"filters", calm.filters}};
     std::string text = "{\n";
     for (const auto& [key, value] : head.items()) text += fmt::format("  {}: {},\n", Json(key).dump(), value.dump());
     text += "  \"rows\": [";
     const char* separator = "\n";
     for (const auto& [key, row] : calm.rows) {
         const auto rounded = [](double v) { return std::stod(fmt::format("{:.6f}", v)); };
-        const Json line{{"method", std::get<0>(key)}, {"preset", std::get<1>(key)}, {"flythrough", std::get<2>(key)}, {"filter", std::get<3>(key)},
-                        {"flickerOfError", rounded(row.flickerOfError)}, {"noise", rounded(row.noise)}, {"t90", row.t90}};
+        const Json line{{"method", std::get<0>(key)}, {"preset", std::get<1>(key)}, {"flythrough", std::get<2>(key)},
+            {"filter", std::get<3>(key)}, {"flickerOfError", rounded(row.flickerOfError)}, {"noise", rounded(row.noise)}, {"t90", row.t90}};
         text += separator + ("    " + line.dump());
         separator = ",\n";
     }
@@ -95,13 +97,16 @@ std::vector<std::string> judge(const Calm& held, const std::map<CalmKey, CalmRow
     for (const auto& [key, row] : measured) {
         const auto found = held.rows.find(key);
         if (found == held.rows.end()) {
-            lines.push_back(fmt::format("{}: not in the baseline (flicker of error {:.5f}, noise {:.5f}, T90 {})", name(key), row.flickerOfError, row.noise, row.t90));
+            lines.push_back(fmt::format("{}: not in the baseline (flicker of error {:.5f}, noise {:.5f}, T90 {})", name(key),
+                row.flickerOfError, row.noise, row.t90));
             continue;
         }
         const CalmRow& was = found->second;
-        if (worse(row.flickerOfError, was.flickerOfError)) lines.push_back(fmt::format("{}: flicker of error {:.5f}, was {:.5f}", name(key), row.flickerOfError, was.flickerOfError));
+        if (worse(row.flickerOfError, was.flickerOfError))
+            lines.push_back(fmt::format("{}: flicker of error {:.5f}, was {:.5f}", name(key), row.flickerOfError, was.flickerOfError));
         if (worse(row.noise, was.noise)) lines.push_back(fmt::format("{}: noise {:.5f}, was {:.5f}", name(key), row.noise, was.noise));
-        if (double(row.t90) > double(was.t90) * (1.0 + held.relative)) lines.push_back(fmt::format("{}: T90 {} frames, was {}", name(key), row.t90, was.t90));
+        if (double(row.t90) > double(was.t90) * (1.0 + held.relative))
+            lines.push_back(fmt::format("{}: T90 {} frames, was {}", name(key), row.t90, was.t90));
     }
     return lines;
 }
@@ -112,7 +117,9 @@ int checkBaseline(const Options& options) {
     const std::vector<std::string> lines = judge(held, measured);
     for (const std::string& line : lines) fmt::print("  {}\n", line);
     if (lines.empty()) fmt::print("passed: {} rows, none worse by more than {:g} %\n", measured.size(), 100.0 * held.relative);
-    else fmt::print("failed: {} of {} rows. If this change is intended: obscura-flythrough --renew-baseline {}\n", lines.size(), measured.size(), options.baseline.string());
+    else
+        fmt::print("failed: {} of {} rows. If this change is intended: obscura-flythrough --renew-baseline {}\n", lines.size(),
+            measured.size(), options.baseline.string());
     return lines.empty() ? 0 : app::kFailed;
 }
 

@@ -60,7 +60,9 @@ int merge(const Options& options) {
     std::vector<Part> parts;
     for (const fs::path& folder : options.merged) {
         const std::vector<fs::path> files = partFiles(folder);
-        if (files.empty()) throw app::Complaint(fmt::format("--merge {}: contains no chunks of a run; name folders that earlier runs wrote with --out", folder.string()));
+        if (files.empty())
+            throw app::Complaint(
+                fmt::format("--merge {}: contains no chunks of a run; name folders that earlier runs wrote with --out", folder.string()));
         for (const fs::path& file : files) {
             const auto part = readPart(file);
             if (!part) throw app::Complaint(fmt::format("{}: is damaged; measure these frames again", file.string()));
@@ -71,7 +73,8 @@ int merge(const Options& options) {
             fs::copy(folder / "frames", out / "frames", fs::copy_options::recursive | fs::copy_options::update_existing);
     }
     parts = joined(std::move(parts));
-    for (const Part& part : parts) app::writeFile(out / "parts" / fmt::format("{}.{}-{}.json", part.name(), part.first, part.end), partText(part));
+    for (const Part& part : parts)
+        app::writeFile(out / "parts" / fmt::format("{}.{}-{}.json", part.name(), part.first, part.end), partText(part));
     finish(parts, "", options);
     return 0;
 }

@@ -3,8 +3,8 @@
 #include <charconv>
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/arguments.h"
 #include "app/complaint.h"
@@ -22,29 +22,34 @@ void setFrames(const std::string& text, Settings& settings) {
     settings.end = settings.length;
     if (text.empty()) return;
     const std::vector<float> range = app::numbers(text, ':');
-    const bool good = range.size() == 2 && range[0] >= 0.0f && range[0] < range[1] && range[0] == float(uint32_t(range[0])) && range[1] == float(uint32_t(range[1]));
+    const bool good = range.size() == 2 && range[0] >= 0.0f && range[0] < range[1] && range[0] == float(uint32_t(range[0])) &&
+                      range[1] == float(uint32_t(range[1]));
     if (!good || range[1] > float(settings.length))
-        throw Complaint(fmt::format("--frames {}: write FIRST:END, such as 0:16; the flythrough has frames 0 to {} (--length)", text, settings.length - 1));
+        throw Complaint(fmt::format(
+            "--frames {}: write FIRST:END, such as 0:16; the flythrough has frames 0 to {} (--length)", text, settings.length - 1));
     settings.first = uint32_t(range[0]);
     settings.end = uint32_t(range[1]);
 }
 
 void listFlythroughs() {
     for (const Script& script : scripts())
-        fmt::print("{:<18}{} ({}{})\n", script.name, script.title, script.scene, script.events.empty() ? "" : fmt::format(", {} events", script.events.size()));
+        fmt::print("{:<18}{} ({}{})\n", script.name, script.title, script.scene,
+            script.events.empty() ? "" : fmt::format(", {} events", script.events.size()));
 }
 
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
-    CLI::App cli{"Renders camera flights through animated scenes with every method and measures, against ray-traced references, errors, "
-                 "flicker, noise and lag.",
-                 "obscura-flythrough"};
+    CLI::App cli{
+        "Renders camera flights through animated scenes with every method and measures, against ray-traced references, errors, "
+        "flicker, noise and lag.",
+        "obscura-flythrough"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(
-        "Writes to --out: frames/ (PNG), one MP4 per method and one side by side, frames.csv, events.csv, static.csv, passes.csv, report.json, report.md and\n"
+        "Writes to --out: frames/ (PNG), one MP4 per method and one side by side, frames.csv, events.csv, static.csv, passes.csv, "
+        "report.json, report.md and\n"
         "report.html. An interrupted run resumes with the same command.\n\n"
         "Examples:\n"
         "  obscura-flythrough --flythrough teleport --method hbao,horizon_split --out out/teleport\n"
@@ -58,17 +63,27 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     using evaluate::takeAll;
 
     cli.option_defaults()->group("Flythrough");
-    takeAll(cli.add_option("--flythrough", options.flythroughs, "By name, several with commas, or all (content/flythroughs.json; --list prints them), or FILE.json, a path recorded by the game"));
-    cli.add_option("--length", options.settings.length, "Frames of the whole flythrough")->check(CLI::Range(2u, 100000u))->capture_default_str();
+    takeAll(cli.add_option("--flythrough", options.flythroughs,
+        "By name, several with commas, or all (content/flythroughs.json; --list prints them), or FILE.json, a path recorded by the game"));
+    cli.add_option("--length", options.settings.length, "Frames of the whole flythrough")
+        ->check(CLI::Range(2u, 100000u))
+        ->capture_default_str();
     cli.add_option("--frames", frames, "FIRST:END: measure only these frames, to split a run over machines (--merge joins the chunks)");
     auto* sizeOption = cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (default: 320x180)");
-    cli.add_option("--guard", options.settings.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
+    cli.add_option("--guard", options.settings.guard, "Guard band, fraction of each side")
+        ->check(CLI::Range(0.0f, 0.5f))
+        ->capture_default_str();
 
     cli.option_defaults()->group("Methods");
     addCandidateOptions(cli, chosen);
-    takeAll(cli.add_option("--modes,--filter", filters, "Resolve presets: raw (no blur, no history), spatial (the preset's blur), temporal (blur and history)")->capture_default_str());
+    takeAll(
+        cli.add_option("--modes,--filter", filters,
+               "Resolve presets: raw (no blur, no history), spatial (the preset's blur), temporal (blur and history)")
+            ->capture_default_str());
     cli.add_option("--falloff", falloff, "KIND:LENGTH; replaces the flythrough's falloff");
-    cli.add_option("--rays", options.settings.rays, "Rays per pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
+    cli.add_option("--rays", options.settings.rays, "Rays per pixel of the references")
+        ->check(CLI::Range(32u, 65536u))
+        ->capture_default_str();
     cli.add_option("--seed", options.settings.seed, "Seed of the rays")->capture_default_str();
     cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
 
@@ -78,11 +93,13 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_flag("--no-video", noVideo, "No videos (they need ffmpeg)");
     cli.add_flag("--again", options.again, "Measure again instead of resuming from the folder");
     takeAll(cli.add_option("--merge", merged, "Folders of runs over chunks of the frames: join them in --out, measure nothing"));
-    cli.add_option("--print-jobs", options.jobs, "Split the run into this many commands, print them one per line (for GNU parallel), and exit")
+    cli.add_option(
+           "--print-jobs", options.jobs, "Split the run into this many commands, print them one per line (for GNU parallel), and exit")
         ->check(CLI::Range(1u, 100000u));
     cli.add_flag("--slurm", options.slurm, "With --print-jobs: print a Slurm array script for sbatch");
     auto* checkOption = cli.add_option("--check-baseline", check, "Fail if a method's flicker, noise or lag exceeds this baseline");
-    cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the rows of those methods)")->excludes(checkOption);
+    cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the rows of those methods)")
+        ->excludes(checkOption);
 
     evaluate::addDevice(cli, options.device, options.validation, options.verbose);
     cli.add_flag("--list", list, "Print the names of the flythroughs");
@@ -123,7 +140,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (options.slurm && !options.jobs) throw Complaint("--slurm: needs --print-jobs N, the number of jobs");
     if (options.jobs) {
         if (!frames.empty()) throw Complaint("--print-jobs: splits all frames; leave out --frames");
-        if (options.jobs > options.settings.length) throw Complaint(fmt::format("--print-jobs {}: there are only {} frames", options.jobs, options.settings.length));
+        if (options.jobs > options.settings.length)
+            throw Complaint(fmt::format("--print-jobs {}: there are only {} frames", options.jobs, options.settings.length));
         options.job = Job::printJobs;
         options.program = app::shellWord(argv[0]);
         for (int i = 1; i < argc; ++i) {
@@ -143,8 +161,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 std::string jobList(const Options& options) {
     const std::string out = options.settings.out.string();
     const auto command = [&](uint32_t job) {
-        const uint32_t first = uint32_t(uint64_t(options.settings.length) * job / options.jobs), end = uint32_t(uint64_t(options.settings.length) * (job + 1) / options.jobs);
-        return fmt::format("{}{} --no-video --frames {}:{} --out {}", options.program, options.arguments, first, end, app::shellWord(fmt::format("{}/part-{}", out, job)));
+        const uint32_t first = uint32_t(uint64_t(options.settings.length) * job / options.jobs),
+                       end = uint32_t(uint64_t(options.settings.length) * (job + 1) / options.jobs);
+        return fmt::format("{}{} --no-video --frames {}:{} --out {}", options.program, options.arguments, first, end,
+            app::shellWord(fmt::format("{}/part-{}", out, job)));
     };
     std::string parts, commands;
     for (uint32_t job = 0; job < options.jobs; ++job) {
@@ -153,8 +173,9 @@ std::string jobList(const Options& options) {
     }
     const std::string merge = fmt::format("{} --merge {} --out {}", options.program, app::shellWord(parts), app::shellWord(out));
     if (!options.slurm) return commands + "# then: " + merge + "\n";
-    return fmt::format("#!/bin/sh\n#SBATCH --job-name=obscura-flythrough\n#SBATCH --array=0-{}\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n# then: {}\n",
-                       options.jobs - 1, commands, merge);
+    return fmt::format(
+        "#!/bin/sh\n#SBATCH --job-name=obscura-flythrough\n#SBATCH --array=0-{}\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n# then: {}\n",
+        options.jobs - 1, commands, merge);
 }
 
 }  // namespace obscura::flythrough

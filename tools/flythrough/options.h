@@ -11,15 +11,15 @@ struct Options {
     Job job = Job::fly;
     std::vector<std::string> flythroughs;
     std::vector<evaluate::Candidate> candidates;
-    std::vector<const ao::Preset*> filters;   // of ao::resolvePresets()
-    Settings settings;                             // out and pictures included
+    std::vector<const ao::Preset*> filters;  // of ao::resolvePresets()
+    Settings settings;                       // out and pictures included
     bool video = true;
-    bool again = false;                            // measure again what an earlier run measured
-    std::vector<std::filesystem::path> merged;     // folders of runs to merge
+    bool again = false;                         // measure again what an earlier run measured
+    std::vector<std::filesystem::path> merged;  // folders of runs to merge
     std::filesystem::path baseline;
     uint32_t jobs = 0;
     bool slurm = false;
-    std::string program, arguments;                // for --print-jobs: argv[0] and the arguments of every job, quoted for a shell
+    std::string program, arguments;  // for --print-jobs: argv[0] and the arguments of every job, quoted for a shell
     std::string device, validation = "off";
     bool verbose = false;
 };

@@ -53,12 +53,13 @@ Summary summarize(const Part& part) {
 }
 
 std::string partText(const Part& part) {
-    Json json{{"key", part.key}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset}, {"settings", part.settings},
-              {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width}, {"height", part.height}, {"rays", part.rays},
-              {"first", part.first}, {"end", part.end}, {"pictures", part.pictures}};
+    Json json{{"key", part.key}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset},
+        {"settings", part.settings}, {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width}, {"height", part.height},
+        {"rays", part.rays}, {"first", part.first}, {"end", part.end}, {"pictures", part.pictures}};
     json["frames"] = Json::array();
     for (const FrameRow& r : part.frames)
-        json["frames"].push_back({r.frame, r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.flickerOfError, r.referenceFlicker});
+        json["frames"].push_back(
+            {r.frame, r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.flickerOfError, r.referenceFlicker});
     json["events"] = Json::array();
     for (const EventRow& r : part.events) json["events"].push_back({r.frame, r.pixels, r.t90, r.ghost});
     if (part.still) json["static"] = {part.still->mean, part.still->p99};
@@ -92,7 +93,9 @@ std::optional<Part> readPart(const std::filesystem::path& file) {
         if (json.contains("static")) part.still = StaticRow{json["static"].at(0), json["static"].at(1)};
         for (const Json& r : json.at("passes")) part.passes.push_back({r.at(0), r.at(1), r.at(2)});
         return part;
-    } catch (const Json::exception&) { return std::nullopt; }
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    }
 }
 
 std::vector<Part> joined(std::vector<Part> parts) {
@@ -108,10 +111,11 @@ std::vector<Part> joined(std::vector<Part> parts) {
             continue;
         }
         const std::string what = all.name();
-        if (part.key != all.key) throw app::Complaint(fmt::format("{}: chunks with different settings; size, rays, falloff and program must be equal", what));
+        if (part.key != all.key)
+            throw app::Complaint(fmt::format("{}: chunks with different settings; size, rays, falloff and program must be equal", what));
         if (part.first != all.end)
             throw app::Complaint(fmt::format("{}: frames {} to {} are {}; give every chunk once", what, std::min(part.first, all.end),
-                                             std::max(part.first, all.end) - 1, part.first > all.end ? "missing" : "given twice"));
+                std::max(part.first, all.end) - 1, part.first > all.end ? "missing" : "given twice"));
         all.end = part.end;
         all.frames.insert(all.frames.end(), part.frames.begin(), part.frames.end());
         all.events.insert(all.events.end(), part.events.begin(), part.events.end());
@@ -131,11 +135,13 @@ constexpr const char* kHead = "flythrough,method,preset,settings,filter";
 }  // namespace
 
 std::string framesCsv(const std::vector<Part>& parts) {
-    std::string text = fmt::format("{},frame,seconds,eA,bias,rmse,share,difference,reference_difference,excess_flicker,flicker_of_error,reference_flicker\n", kHead);
+    std::string text = fmt::format(
+        "{},frame,seconds,eA,bias,rmse,share,difference,reference_difference,excess_flicker,flicker_of_error,reference_flicker\n", kHead);
     for (const Part& part : parts)
         for (const FrameRow& r : part.frames)
-            text += fmt::format("{},{},{:.6g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", head(part), r.frame, r.time, r.eA, r.bias, r.rmse,
-                                r.share, r.difference, r.referenceDifference, r.difference - r.referenceDifference, r.flickerOfError, r.referenceFlicker);
+            text += fmt::format("{},{},{:.6g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", head(part), r.frame,
+                r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.difference - r.referenceDifference,
+                r.flickerOfError, r.referenceFlicker);
     return text;
 }
 

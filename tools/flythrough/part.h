@@ -11,7 +11,7 @@ namespace obscura::flythrough {
 
 struct FrameRow {
     uint32_t frame = 0;
-    float time = 0.0f;                 // s
+    float time = 0.0f;  // s
     // Of visibility against the world reference, over pixels that are not sky.
     float eA = 0.0f, bias = 0.0f, rmse = 0.0f;
     // Change from the previous frame along motion (truth/stability.h), over the fraction `share` of pixels found in it. 0 in the first
@@ -24,34 +24,39 @@ struct EventRow {
     float ghost = 0.0f;
 };
 
-struct StaticRow { float mean = 0.0f, p99 = 0.0f; };  // standard deviations over frames with fixed camera and scene
-struct PassRow { std::string name; double median = 0.0, p95 = 0.0; };  // ms
+struct StaticRow {
+    float mean = 0.0f, p99 = 0.0f;
+};  // standard deviations over frames with fixed camera and scene
+struct PassRow {
+    std::string name;
+    double median = 0.0, p95 = 0.0;
+};  // ms
 
 struct Part {
-    std::string key;                   // hash of everything that determines the rows
+    std::string key;  // hash of everything that determines the rows
     std::string flythrough, method, preset, settings, filter, falloff;
     uint32_t width = 0, height = 0, rays = 0;
-    uint32_t first = 0, end = 0;       // frames of this chunk
+    uint32_t first = 0, end = 0;  // frames of this chunk
     std::vector<FrameRow> frames;
-    std::vector<EventRow> events;      // those that begin in [first, end)
-    std::optional<StaticRow> still;    // only in the chunk with frame 0
-    std::vector<PassRow> passes;       // the method's own passes
-    std::string pictures;              // folder of the frames' pictures, relative to the report; empty: no pictures
+    std::vector<EventRow> events;    // those that begin in [first, end)
+    std::optional<StaticRow> still;  // only in the chunk with frame 0
+    std::vector<PassRow> passes;     // the method's own passes
+    std::string pictures;            // folder of the frames' pictures, relative to the report; empty: no pictures
 
-    std::string label() const;         // "hbao tuned steps=4"
-    std::string name() const;          // "teleport.hbao.temporal", safe as a file name
+    std::string label() const;  // "hbao tuned steps=4"
+    std::string name() const;   // "teleport.hbao.temporal", safe as a file name
 };
 
 // Summary of a chunk: means over its frames, worst value over its events.
 struct Summary {
-    double eA = 0.0, bias = 0.0;                  // mean over frames
-    double difference = 0.0, excess = 0.0;        // mean D_A, mean F
+    double eA = 0.0, bias = 0.0;                          // mean over frames
+    double difference = 0.0, excess = 0.0;                // mean D_A, mean F
     double flickerOfError = 0.0, referenceFlicker = 0.0;  // mean F_e, mean F_R
-    double noiseMean = 0.0, noiseP99 = 0.0;       // static
-    uint32_t t90 = 0;                             // worst event
-    double ghost = 0.0;                           // summed over events
-    double milliseconds = 0.0;                    // sum of the medians of its passes
-    uint32_t worst = 0;                           // frame of the largest eA
+    double noiseMean = 0.0, noiseP99 = 0.0;               // static
+    uint32_t t90 = 0;                                     // worst event
+    double ghost = 0.0;                                   // summed over events
+    double milliseconds = 0.0;                            // sum of the medians of its passes
+    uint32_t worst = 0;                                   // frame of the largest eA
 };
 Summary summarize(const Part& part);
 

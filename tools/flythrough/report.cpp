@@ -47,13 +47,16 @@ std::string table(const std::vector<Part>& parts) {
     for (const Part& part : parts) {
         if (part.flythrough != flythrough) {
             flythrough = part.flythrough;
-            text += fmt::format("{}, {} x {} px, {}, frames {} to {}, {} rays, F_R {:.4f}\n  {:<{}}  filter        eA     bias      D_A   excess      F_e   of raw    noise    p99  T90   ghost       ms\n",
-                                flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, summarize(part).referenceFlicker, "method", width);
+            text += fmt::format(
+                "{}, {} x {} px, {}, frames {} to {}, {} rays, F_R {:.4f}\n  {:<{}}  filter        eA     bias      D_A   excess      F_e  "
+                " of raw    noise    p99  T90   ghost       ms\n",
+                flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, summarize(part).referenceFlicker,
+                "method", width);
         }
         const Summary s = summarize(part);
-        text += fmt::format("  {:<{}}  {:<8}  {:.4f}  {:+.4f}   {:.4f}  {:+.4f}   {:.4f}   {:>6}  {:.5f}  {:.4f}  {:>3}  {:.4f}  {:7.2f}\n", part.label(), width, part.filter, s.eA,
-                            s.bias, s.difference, s.excess, s.flickerOfError, ratio(bare, part, s, "-"), s.noiseMean, s.noiseP99, part.events.empty() ? "-" : std::to_string(s.t90), s.ghost,
-                            s.milliseconds);
+        text += fmt::format("  {:<{}}  {:<8}  {:.4f}  {:+.4f}   {:.4f}  {:+.4f}   {:.4f}   {:>6}  {:.5f}  {:.4f}  {:>3}  {:.4f}  {:7.2f}\n",
+            part.label(), width, part.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(bare, part, s, "-"),
+            s.noiseMean, s.noiseP99, part.events.empty() ? "-" : std::to_string(s.t90), s.ghost, s.milliseconds);
     }
     return text;
 }
@@ -64,15 +67,18 @@ std::string markdown(const std::vector<Part>& parts) {
     for (const Part& part : parts) {
         const Summary s = summarize(part);
         if (part.flythrough != flythrough) {
-            text += fmt::format("{}**{}**, {} x {} px, {}, frames {} to {}, {} rays; the reference's own F_R is {:.4f}.\n\n"
-                                "| method | filter | eA | bias | D_A | excess | F_e | of raw | noise | T90 | ghost | ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-                                text.empty() ? "" : "\n", part.flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, s.referenceFlicker);
+            text += fmt::format(
+                "{}**{}**, {} x {} px, {}, frames {} to {}, {} rays; the reference's own F_R is {:.4f}.\n\n"
+                "| method | filter | eA | bias | D_A | excess | F_e | of raw | noise | T90 | ghost | ms "
+                "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+                text.empty() ? "" : "\n", part.flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays,
+                s.referenceFlicker);
             flythrough = part.flythrough;
         }
         const bool lag = !part.events.empty();
-        text += fmt::format("| {} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.4f} | {} | {:.5f} | {} | {} | {:.2f} |\n", part.label(), part.filter, s.eA, s.bias, s.difference,
-                            s.excess, s.flickerOfError, ratio(bare, part, s, ""), s.noiseMean, lag ? std::to_string(s.t90) : "", lag ? fmt::format("{:.3f}", s.ghost) : "",
-                            s.milliseconds);
+        text += fmt::format("| {} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.4f} | {} | {:.5f} | {} | {} | {:.2f} |\n", part.label(),
+            part.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(bare, part, s, ""), s.noiseMean,
+            lag ? std::to_string(s.t90) : "", lag ? fmt::format("{:.3f}", s.ghost) : "", s.milliseconds);
     }
     return text;
 }
@@ -81,20 +87,22 @@ namespace {
 
 Json summaryJson(const Part& part) {
     const Summary s = summarize(part);
-    Json json{{"name", part.name()}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset}, {"settings", part.settings},
-              {"label", part.label()}, {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width}, {"height", part.height},
-              {"rays", part.rays}, {"pictures", part.pictures}, {"eA", s.eA}, {"bias", s.bias}, {"difference", s.difference}, {"excessFlicker", s.excess},
-              {"flickerOfError", s.flickerOfError}, {"referenceFlicker", s.referenceFlicker}, {"noiseMean", s.noiseMean}, {"noiseP99", s.noiseP99}, {"milliseconds", s.milliseconds},
-              {"worstFrame", s.worst}};
+    Json json{{"name", part.name()}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset},
+        {"settings", part.settings}, {"label", part.label()}, {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width},
+        {"height", part.height}, {"rays", part.rays}, {"pictures", part.pictures}, {"eA", s.eA}, {"bias", s.bias},
+        {"difference", s.difference}, {"excessFlicker", s.excess}, {"flickerOfError", s.flickerOfError},
+        {"referenceFlicker", s.referenceFlicker}, {"noiseMean", s.noiseMean}, {"noiseP99", s.noiseP99}, {"milliseconds", s.milliseconds},
+        {"worstFrame", s.worst}};
     if (!part.events.empty()) json["t90"] = s.t90, json["ghost"] = s.ghost;
     json["passes"] = Json::array();
     for (const PassRow& row : part.passes) json["passes"].push_back({{"name", row.name}, {"median", row.median}, {"p95", row.p95}});
     json["frames"] = Json::array();
     for (const FrameRow& r : part.frames)
         json["frames"].push_back({{"frame", r.frame}, {"seconds", r.time}, {"eA", r.eA}, {"difference", r.difference},
-                                  {"excessFlicker", r.difference - r.referenceDifference}, {"flickerOfError", r.flickerOfError}});
+            {"excessFlicker", r.difference - r.referenceDifference}, {"flickerOfError", r.flickerOfError}});
     json["events"] = Json::array();
-    for (const EventRow& r : part.events) json["events"].push_back({{"frame", r.frame}, {"pixels", r.pixels}, {"t90", r.t90}, {"ghost", r.ghost}});
+    for (const EventRow& r : part.events)
+        json["events"].push_back({{"frame", r.frame}, {"pixels", r.pixels}, {"t90", r.t90}, {"ghost", r.ghost}});
     return json;
 }
 
@@ -102,8 +110,9 @@ Json summaryJson(const Part& part) {
 bool encode(const std::string& inputs, const std::string& filter, const fs::path& file) {
     fs::path temporary = file;
     temporary += ".part.mp4";
-    const std::string command = fmt::format("ffmpeg -hide_banner -loglevel error -nostdin -y {} {} -c:v libx264 -preset fast -crf 14 -pix_fmt yuv420p -threads 2 {} 1>&2",
-                                            inputs, filter, app::shellWord(temporary.string()));
+    const std::string command = fmt::format(
+        "ffmpeg -hide_banner -loglevel error -nostdin -y {} {} -c:v libx264 -preset fast -crf 14 -pix_fmt yuv420p -threads 2 {} 1>&2",
+        inputs, filter, app::shellWord(temporary.string()));
     std::error_code ignored;
     if (std::system(command.c_str()) != 0) {
         fs::remove(temporary, ignored);
@@ -133,7 +142,8 @@ void writeReport(const std::vector<Part>& parts, const std::string& device, cons
 
 void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
     if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {
-        fmt::print(stderr, "obscura-flythrough: no videos, because ffmpeg is missing; install the package ffmpeg and run the same command again\n");
+        fmt::print(stderr,
+            "obscura-flythrough: no videos, because ffmpeg is missing; install the package ffmpeg and run the same command again\n");
         return;
     }
     std::map<std::string, std::vector<const Part*>> groups;
@@ -171,8 +181,10 @@ void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
             };
             layout += fmt::format("{}{}_{}", i ? "|" : "", times("w", i % columns), times("h", i / columns));
         }
-        if (!encode(inputs, fmt::format("-filter_complex '{}xstack=inputs={}:layout={}:fill=black,pad=ceil(iw/2)*2:ceil(ih/2)*2'", stack, count, layout),
-                    out / (flythrough + ".side-by-side.mp4")))
+        if (!encode(inputs,
+                fmt::format(
+                    "-filter_complex '{}xstack=inputs={}:layout={}:fill=black,pad=ceil(iw/2)*2:ceil(ih/2)*2'", stack, count, layout),
+                out / (flythrough + ".side-by-side.mp4")))
             fmt::print(stderr, "obscura-flythrough: ffmpeg could not put {} side by side\n", flythrough);
     }
 }

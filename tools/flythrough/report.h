@@ -5,8 +5,8 @@
 
 namespace obscura::flythrough {
 
-std::string table(const std::vector<Part>& parts);                 // for a terminal
-std::string markdown(const std::vector<Part>& parts);              // one table per flythrough, one row per method and filter
+std::string table(const std::vector<Part>& parts);     // for a terminal
+std::string markdown(const std::vector<Part>& parts);  // one table per flythrough, one row per method and filter
 // The four CSVs, report.json, report.md and report.html.
 void writeReport(const std::vector<Part>& parts, const std::string& device, const std::filesystem::path& out);
 // NAME.mp4 of every method with pictures, and FLYTHROUGH.side-by-side.mp4. Without ffmpeg: one line on stderr, no failure.

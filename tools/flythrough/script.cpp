@@ -104,7 +104,9 @@ Script recorded(const std::string& text) {
     Script script;
     script.path = text.substr(0, mark);
     const scene::CameraPath path = scene::loadCameraPath(script.path);
-    if (path.scene.empty()) throw Complaint(fmt::format("{}: names no scene; add \"scene\": a name of content/scenes.json or a glTF file", script.path.string()));
+    if (path.scene.empty())
+        throw Complaint(
+            fmt::format("{}: names no scene; add \"scene\": a name of content/scenes.json or a glTF file", script.path.string()));
     script.scene = path.scene;
     script.title = path.name;
     script.name = script.path.filename().string();
@@ -121,7 +123,8 @@ Script recorded(const std::string& text) {
 
 std::vector<Script> scripts() {
     const auto manifest = evaluate::findContent("flythroughs.json");
-    if (!manifest) throw Complaint("flythroughs.json: not found in content/; run from the source tree, or name a content folder in OBSCURA_CONTENT");
+    if (!manifest)
+        throw Complaint("flythroughs.json: not found in content/; run from the source tree, or name a content folder in OBSCURA_CONTENT");
     const scene::JsonFile json(*manifest);
     const scene::JsonAt list = json.root().at("flythroughs").expectArray();
     std::vector<Script> all;
@@ -143,7 +146,8 @@ Script findScript(const std::string& name) {
         if (!script.camera) pathFile(script);
         return script;
     }
-    throw Complaint(fmt::format("--flythrough {}: no such flythrough; {}, or the path of a recorded FILE.json", name, app::choices(name, names)));
+    throw Complaint(
+        fmt::format("--flythrough {}: no such flythrough; {}, or the path of a recorded FILE.json", name, app::choices(name, names)));
 }
 
 Stage::Stage(const Script& script) : m_script(script) {

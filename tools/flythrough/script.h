@@ -15,21 +15,21 @@ namespace obscura::flythrough {
 struct Event {
     uint32_t frame = 0;
     std::string box;
-    glm::vec3 size{1.0f};   // m
-    glm::vec3 at{0.0f};     // of its centre, world
+    glm::vec3 size{1.0f};  // m
+    glm::vec3 at{0.0f};    // of its centre, world
     bool gone = false;
 };
 
 struct Script {
     std::string name, title;
-    std::string scene;                         // of content/scenes.json, or a glTF file
-    std::optional<scene::Camera> camera;       // fixed camera
-    std::filesystem::path path;                // or camera path
-    float start = 0.0f;                        // s, of path and animations
+    std::string scene;                    // of content/scenes.json, or a glTF file
+    std::optional<scene::Camera> camera;  // fixed camera
+    std::filesystem::path path;           // or camera path
+    float start = 0.0f;                   // s, of path and animations
     float framesPerSecond = 30.0f;
-    bool animated = true;                      // false: animations stand still at `start`
+    bool animated = true;  // false: animations stand still at `start`
     std::string falloff = "quadratic:2";
-    std::vector<Event> events;                 // by frame
+    std::vector<Event> events;  // by frame
 
     float timeAt(uint32_t frame) const { return start + float(frame) / framesPerSecond; }
 };
@@ -43,7 +43,7 @@ Script findScript(const std::string& name);
 // A loaded script.
 class Stage {
 public:
-    explicit Stage(const Script& script);      // loads; throws
+    explicit Stage(const Script& script);         // loads; throws
     const scene::World& worldAt(uint32_t frame);  // frames in any order; valid until the next call
     scene::Camera cameraAt(uint32_t frame) const;
     float worldTimeAt(uint32_t frame) const { return m_script.animated ? m_script.timeAt(frame) : m_script.start; }
@@ -54,7 +54,7 @@ private:
     scene::World m_world;
     scene::CameraPath m_path;
     std::shared_ptr<const scene::Model> m_box;
-    std::map<std::string, uint32_t> m_boxes;   // instances of boxes in m_world, by name
+    std::map<std::string, uint32_t> m_boxes;  // instances of boxes in m_world, by name
 };
 
 }  // namespace obscura::flythrough

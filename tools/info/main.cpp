@@ -34,8 +34,8 @@ int printDevices() {
     std::puts("devices:");
     for (const DeviceReport& report : reports) {
         std::printf("  %s (%s), Vulkan %u.%u.%u%s%s\n", report.name.c_str(), report.type.c_str(), VK_API_VERSION_MAJOR(report.vulkan),
-                    VK_API_VERSION_MINOR(report.vulkan), VK_API_VERSION_PATCH(report.vulkan),
-                    report.driver.empty() ? "" : ", ", report.driver.c_str());
+            VK_API_VERSION_MINOR(report.vulkan), VK_API_VERSION_PATCH(report.vulkan), report.driver.empty() ? "" : ", ",
+            report.driver.c_str());
         if (report.missing.empty()) {
             std::puts("    can run the library: a context and every method's pipelines were made on it");
             result = 0;

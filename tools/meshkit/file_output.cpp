@@ -5,15 +5,12 @@
 
 namespace obscura::kit {
 
-void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
-{
+void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
     if (path.filename().empty() || std::filesystem::is_directory(path))
         throw std::runtime_error("cannot write " + path.string() + ": it names a folder");
     std::error_code error;
-    if (path.has_parent_path())
-        std::filesystem::create_directories(path.parent_path(), error);
-    if (error)
-        throw std::runtime_error("cannot make folder " + path.parent_path().string() + ": " + error.message());
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+    if (error) throw std::runtime_error("cannot make folder " + path.parent_path().string() + ": " + error.message());
     std::filesystem::path partial = path;
     partial += ".partial";
     {
@@ -26,8 +23,7 @@ void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> 
         }
     }
     std::filesystem::rename(partial, path, error);
-    if (error)
-        throw std::runtime_error("cannot rename " + partial.string() + " to " + path.string() + ": " + error.message());
+    if (error) throw std::runtime_error("cannot rename " + partial.string() + " to " + path.string() + ": " + error.message());
 }
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

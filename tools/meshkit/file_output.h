@@ -11,4 +11,4 @@ namespace obscura::kit {
 /// Creates the folder if it is missing; throws std::runtime_error with a one-line reason.
 void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

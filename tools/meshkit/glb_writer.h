@@ -11,4 +11,4 @@ namespace obscura::kit {
 /// The scene as the bytes of a GLB 2.0 file. The same scene always gives the same bytes.
 std::vector<std::uint8_t> writeGlb(const Scene& scene);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

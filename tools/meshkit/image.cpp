@@ -19,20 +19,17 @@
 
 namespace obscura::kit {
 
-Image paint(int width, int height, const std::function<glm::vec4(glm::vec2)>& colour)
-{
+Image paint(int width, int height, const std::function<glm::vec4(glm::vec2)>& colour) {
     Image image{width, height, {}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const glm::vec4 c = glm::clamp(colour((glm::vec2(x, y) + 0.5f) / glm::vec2(width, height)), 0.0f, 1.0f);
-            for (int i = 0; i < 4; ++i)
-                image.pixels.push_back(static_cast<std::uint8_t>(std::lround(c[i] * 255.0f)));
+            for (int i = 0; i < 4; ++i) image.pixels.push_back(static_cast<std::uint8_t>(std::lround(c[i] * 255.0f)));
         }
     return image;
 }
 
-std::vector<std::uint8_t> encodePng(const Image& image)
-{
+std::vector<std::uint8_t> encodePng(const Image& image) {
     std::vector<std::uint8_t> bytes;
     const auto append = [](void* context, void* data, int size) {
         auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
@@ -44,8 +41,7 @@ std::vector<std::uint8_t> encodePng(const Image& image)
     return bytes;
 }
 
-float hash01(std::uint32_t a, std::uint32_t b, std::uint32_t c)
-{
+float hash01(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     std::uint32_t h = a * 0x9E3779B1u ^ (b + 0x7F4A7C15u) * 0x85EBCA77u ^ (c + 0x165667B1u) * 0xC2B2AE3Du;
     h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
     h = (h ^ (h >> 12)) * 0x297A2D39u;
@@ -53,8 +49,7 @@ float hash01(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     return static_cast<float>(h >> 8) / 16777216.0f;
 }
 
-float tileableNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed)
-{
+float tileableNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed) {
     const glm::vec2 cell = glm::floor(p);
     const glm::vec2 f = p - cell;
     const glm::vec2 u = f * f * (3.0f - 2.0f * f);
@@ -66,8 +61,7 @@ float tileableNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed)
     return glm::mix(glm::mix(corner(0, 0), corner(1, 0), u.x), glm::mix(corner(0, 1), corner(1, 1), u.x), u.y);
 }
 
-float fractalNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed, int octaves)
-{
+float fractalNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed, int octaves) {
     float sum = 0.0f;
     float weight = 0.5f;
     float total = 0.0f;
@@ -81,4 +75,4 @@ float fractalNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed, int octav
     return sum / total;
 }
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

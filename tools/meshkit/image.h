@@ -29,4 +29,4 @@ float fractalNoise(glm::vec2 p, glm::ivec2 period, std::uint32_t seed, int octav
 /// A pseudo-random number in [0, 1), a hash of the arguments.
 float hash01(std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

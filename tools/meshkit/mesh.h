@@ -66,4 +66,4 @@ struct Geometry {
 /// so hard edges of the base shape stay hard.
 MorphTarget makeMorph(const Mesh& mesh, const std::function<glm::vec3(glm::vec3)>& deform);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

@@ -19,4 +19,4 @@ std::vector<float> valueAt(const Scene& scene, const Channel& channel, float tim
 /// The world positions of a node's vertices after morphing and skinning.
 std::vector<glm::vec3> posedPositions(const Scene& scene, const Pose& pose, int node);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

@@ -102,13 +102,9 @@ struct Scene {
 
     void animateTranslation(int node, const std::vector<float>& times, const std::function<glm::vec3(float)>& at);
     /// Neighbouring quaternions are kept in one half of the sphere.
-    void animateRotation(int node,
-                         const std::vector<float>& times,
-                         const std::function<glm::quat(float)>& at,
-                         Interpolation interpolation = Interpolation::Linear);
-    void animateWeights(int node,
-                        const std::vector<float>& times,
-                        const std::function<std::vector<float>(float)>& at);
+    void animateRotation(int node, const std::vector<float>& times, const std::function<glm::quat(float)>& at,
+        Interpolation interpolation = Interpolation::Linear);
+    void animateWeights(int node, const std::vector<float>& times, const std::function<std::vector<float>(float)>& at);
 };
 
 /// 0, 1/rate, 2/rate .. duration.
@@ -117,4 +113,4 @@ std::vector<float> sampleTimes(float duration, float rate);
 /// The linear colour of an sRGB one given as 0xRRGGBB.
 glm::vec4 srgb(std::uint32_t hex);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

@@ -57,4 +57,4 @@ glm::mat4 scaling(glm::vec3 factor);
 /// Turns +y towards a direction.
 glm::mat4 aimY(glm::vec3 direction);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

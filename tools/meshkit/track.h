@@ -29,4 +29,4 @@ private:
 /// 0 below `from`, 1 above `to`, smooth between.
 float smoothStep(float from, float to, float value);
 
-} // namespace obscura::kit
+}  // namespace obscura::kit

@@ -10,15 +10,11 @@ namespace {
 
 constexpr float kPi = glm::pi<float>();
 
-} // namespace
+}  // namespace
 
-float Course::length() const
-{
-    return 4.0f * halfStraight + 2.0f * kPi * radius;
-}
+float Course::length() const { return 4.0f * halfStraight + 2.0f * kPi * radius; }
 
-float Course::heading(float distance) const
-{
+float Course::heading(float distance) const {
     const float lap = std::floor(distance / length());
     const float rest = distance - lap * length();
     const float arc = kPi * radius;
@@ -27,18 +23,15 @@ float Course::heading(float distance) const
     return -(lap * 2.0f * kPi + (firstArc + secondArc) / radius);
 }
 
-glm::vec2 Course::position(float distance) const
-{
+glm::vec2 Course::position(float distance) const {
     const float rest = distance - std::floor(distance / length()) * length();
     const float arc = kPi * radius;
     const float turn = -heading(rest);
     const glm::vec2 side = radius * glm::vec2(std::cos(turn), std::sin(turn));
     float along = rest;
-    if (rest > 3.0f * halfStraight + arc)
-        along = std::max(rest - length(), -halfStraight);
-    else if (rest > halfStraight)
-        along = halfStraight - std::max(rest - halfStraight - arc, 0.0f);
+    if (rest > 3.0f * halfStraight + arc) along = std::max(rest - length(), -halfStraight);
+    else if (rest > halfStraight) along = halfStraight - std::max(rest - halfStraight - arc, 0.0f);
     return centre + glm::vec2(0.0f, along) + side;
 }
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

@@ -19,4 +19,4 @@ struct Course {
     float heading(float distance) const;
 };
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

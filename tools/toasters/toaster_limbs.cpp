@@ -12,8 +12,7 @@ using namespace kit;
 namespace {
 
 /// One leg about its own hip axis: a ribbed rubber sleeve and a shoe.
-Mesh makeLeg()
-{
+Mesh makeLeg() {
     Profile sleeve{{0.0f, 0.034f}, {0.021f, 0.034f}};
     constexpr int kRibs = 4;
     constexpr float kTop = 0.205f;
@@ -33,29 +32,20 @@ Mesh makeLeg()
         float y;
         Slot slot;
     };
-    const std::vector<Step> steps{{0.0f, 0.0f, kRubber},
-                                  {0.93f, 0.0f, kRubber},
-                                  {1.0f, 0.006f, kRubber},
-                                  {1.0f, 0.014f, kPaint},
-                                  {0.97f, 0.026f, kPaint},
-                                  {0.82f, 0.042f, kPaint},
-                                  {0.5f, 0.054f, kPaint},
-                                  {0.0f, 0.057f, kPaint}};
+    const std::vector<Step> steps{{0.0f, 0.0f, kRubber}, {0.93f, 0.0f, kRubber}, {1.0f, 0.006f, kRubber}, {1.0f, 0.014f, kPaint},
+        {0.97f, 0.026f, kPaint}, {0.82f, 0.042f, kPaint}, {0.5f, 0.054f, kPaint}, {0.0f, 0.057f, kPaint}};
     std::vector<Ring> rings;
     for (const Step& step : steps)
-        rings.push_back(superellipse(
-            glm::vec2(0.05f, 0.074f) * step.scale, 2.4f, step.y, 14, glm::vec2(0.0f, 0.02f * step.scale)));
+        rings.push_back(superellipse(glm::vec2(0.05f, 0.074f) * step.scale, 2.4f, step.y, 14, glm::vec2(0.0f, 0.02f * step.scale)));
     mesh.append(loft(rings, [&](std::size_t ring, std::size_t) { return steps[ring].slot; }));
     return mesh;
 }
 
-} // namespace
+}  // namespace
 
-Geometry makeLegs()
-{
+Geometry makeLegs() {
     Geometry geometry;
-    for (float side : {1.0f, -1.0f})
-        geometry.mesh.append(makeLeg(), translation({side * kHipSide, 0, 0}));
+    for (float side : {1.0f, -1.0f}) geometry.mesh.append(makeLeg(), translation({side * kHipSide, 0, 0}));
     smoothNormals(geometry.mesh, 50.0f);
 
     constexpr float kKneeHeight = kHipHeight - kLegSegment;
@@ -79,8 +69,7 @@ Geometry makeLegs()
     return geometry;
 }
 
-Geometry makeToast()
-{
+Geometry makeToast() {
     constexpr float kHalfHeight = 0.082f;
     constexpr float kHalfThickness = 0.0135f;
     struct Step {
@@ -89,36 +78,16 @@ Geometry makeToast()
         float thickness;
     };
     // Bread that rose over its tin: straight sides, a waist, a domed top.
-    const std::vector<Step> steps{{-1.0f, 0.0f, 0.0f},
-                                  {-1.0f, 0.066f, 0.75f},
-                                  {-0.93f, 0.073f, 1.0f},
-                                  {-0.45f, 0.076f, 1.0f},
-                                  {0.0f, 0.077f, 1.0f},
-                                  {0.3f, 0.077f, 1.0f},
-                                  {0.46f, 0.084f, 1.0f},
-                                  {0.66f, 0.088f, 1.0f},
-                                  {0.84f, 0.079f, 1.0f},
-                                  {0.96f, 0.058f, 0.95f},
-                                  {1.0f, 0.04f, 0.7f},
-                                  {1.0f, 0.0f, 0.0f}};
+    const std::vector<Step> steps{{-1.0f, 0.0f, 0.0f}, {-1.0f, 0.066f, 0.75f}, {-0.93f, 0.073f, 1.0f}, {-0.45f, 0.076f, 1.0f},
+        {0.0f, 0.077f, 1.0f}, {0.3f, 0.077f, 1.0f}, {0.46f, 0.084f, 1.0f}, {0.66f, 0.088f, 1.0f}, {0.84f, 0.079f, 1.0f},
+        {0.96f, 0.058f, 0.95f}, {1.0f, 0.04f, 0.7f}, {1.0f, 0.0f, 0.0f}};
     // Across the slice: the crumb in front and behind, the crust round the sides.
-    const std::vector<glm::vec2> section{{-0.86f, 1.0f},
-                                         {-0.3f, 1.0f},
-                                         {0.3f, 1.0f},
-                                         {0.86f, 1.0f},
-                                         {1.0f, 0.55f},
-                                         {1.0f, -0.55f},
-                                         {0.86f, -1.0f},
-                                         {0.3f, -1.0f},
-                                         {-0.3f, -1.0f},
-                                         {-0.86f, -1.0f},
-                                         {-1.0f, -0.55f},
-                                         {-1.0f, 0.55f}};
+    const std::vector<glm::vec2> section{{-0.86f, 1.0f}, {-0.3f, 1.0f}, {0.3f, 1.0f}, {0.86f, 1.0f}, {1.0f, 0.55f}, {1.0f, -0.55f},
+        {0.86f, -1.0f}, {0.3f, -1.0f}, {-0.3f, -1.0f}, {-0.86f, -1.0f}, {-1.0f, -0.55f}, {-1.0f, 0.55f}};
     std::vector<Ring> rings;
     for (const Step& step : steps) {
         Ring ring;
-        for (glm::vec2 p : section)
-            ring.emplace_back(p.x * step.halfWidth, step.y * kHalfHeight, p.y * step.thickness * kHalfThickness);
+        for (glm::vec2 p : section) ring.emplace_back(p.x * step.halfWidth, step.y * kHalfHeight, p.y * step.thickness * kHalfThickness);
         rings.push_back(ring);
     }
     Geometry geometry;
@@ -136,4 +105,4 @@ Geometry makeToast()
     return geometry;
 }
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

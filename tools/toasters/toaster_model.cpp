@@ -22,8 +22,7 @@ constexpr float kSlotExponent = 5.0f;
 constexpr float kSlotFloor = 0.068f;
 constexpr float kCrown = 0.182f;
 
-Mesh placed(Mesh mesh, std::uint32_t material, const glm::mat4& transform)
-{
+Mesh placed(Mesh mesh, std::uint32_t material, const glm::mat4& transform) {
     mesh.setMaterial(material);
     Mesh result;
     result.append(mesh, transform);
@@ -31,75 +30,53 @@ Mesh placed(Mesh mesh, std::uint32_t material, const glm::mat4& transform)
 }
 
 /// A point on the body's outline, seen from above at `angle` from straight ahead.
-glm::vec3 onOutline(float degrees, float scale, float y)
-{
+glm::vec3 onOutline(float degrees, float scale, float y) {
     const float angle = glm::radians(degrees);
     const float s = std::sin(angle);
     const float c = std::cos(angle);
-    const float reach = std::pow(std::pow(std::abs(s) / kBodyHalf.x, kBodyExponent) +
-                                     std::pow(std::abs(c) / kBodyHalf.y, kBodyExponent),
-                                 -1.0f / kBodyExponent);
+    const float reach = std::pow(
+        std::pow(std::abs(s) / kBodyHalf.x, kBodyExponent) + std::pow(std::abs(c) / kBodyHalf.y, kBodyExponent), -1.0f / kBodyExponent);
     return {s * reach * scale, y, c * reach * scale};
 }
 
 /// A tooth whose root reaches into the lip, so no gap shows.
-Mesh tooth(float degrees, float scale, float y, float halfHeight)
-{
-    return placed(chamferBox({-0.015f, -halfHeight, -0.008f}, {0.015f, halfHeight, 0.008f}, 0.005f),
-                  kEnamel,
-                  translation(onOutline(degrees, scale, y)) * rotation(degrees, {0, 1, 0}));
+Mesh tooth(float degrees, float scale, float y, float halfHeight) {
+    return placed(chamferBox({-0.015f, -halfHeight, -0.008f}, {0.015f, halfHeight, 0.008f}, 0.005f), kEnamel,
+        translation(onOutline(degrees, scale, y)) * rotation(degrees, {0, 1, 0}));
 }
 
-} // namespace
+}  // namespace
 
-Geometry makeJaw()
-{
+Geometry makeJaw() {
     struct Step {
         float scale;
         float y;
         Slot slot;
     };
-    const std::vector<Step> steps{{0.0f, -0.03f, kPaint},
-                                  {0.62f, -0.03f, kPaint},
-                                  {0.82f, -0.016f, kPaint},
-                                  {0.95f, 0.012f, kPaint},
-                                  {1.0f, 0.05f, kPaint},
-                                  {1.0f, 0.074f, kChrome},
-                                  {1.045f, 0.08f, kChrome},
-                                  {1.05f, 0.092f, kChrome},
-                                  {1.02f, 0.099f, kChrome},
-                                  {0.93f, 0.098f, kChrome},
-                                  {0.9f, 0.088f, kMouth},
-                                  {0.84f, 0.052f, kMouth},
-                                  {0.66f, 0.03f, kMouth},
-                                  {0.0f, 0.026f, kMouth}};
+    const std::vector<Step> steps{{0.0f, -0.03f, kPaint}, {0.62f, -0.03f, kPaint}, {0.82f, -0.016f, kPaint}, {0.95f, 0.012f, kPaint},
+        {1.0f, 0.05f, kPaint}, {1.0f, 0.074f, kChrome}, {1.045f, 0.08f, kChrome}, {1.05f, 0.092f, kChrome}, {1.02f, 0.099f, kChrome},
+        {0.93f, 0.098f, kChrome}, {0.9f, 0.088f, kMouth}, {0.84f, 0.052f, kMouth}, {0.66f, 0.03f, kMouth}, {0.0f, 0.026f, kMouth}};
     std::vector<Ring> rings;
-    for (const Step& step : steps)
-        rings.push_back(superellipse(kBodyHalf * step.scale, kBodyExponent, step.y, kBodySegments));
+    for (const Step& step : steps) rings.push_back(superellipse(kBodyHalf * step.scale, kBodyExponent, step.y, kBodySegments));
     Mesh mesh = loft(rings, [&](std::size_t ring, std::size_t) { return steps[ring].slot; });
 
-    for (float degrees : {-36.0f, -12.0f, 12.0f, 36.0f})
-        mesh.append(tooth(degrees, 0.955f, 0.106f, 0.016f));
+    for (float degrees : {-36.0f, -12.0f, 12.0f, 36.0f}) mesh.append(tooth(degrees, 0.955f, 0.106f, 0.016f));
     // The tongue.
     mesh.append(placed(sphere(1.0f, 10, 5), kMouth, translation({0, 0.034f, 0.05f}) * scaling({0.06f, 0.018f, 0.075f})));
     // The hinge barrel, held by the jaw.
-    mesh.append(placed(cylinder(0.013f, 0.15f, 0.004f, 10),
-                       kBrass,
-                       translation(kHinge + glm::vec3(0.075f, 0, -0.022f)) * rotation(90, {0, 0, 1})));
+    mesh.append(
+        placed(cylinder(0.013f, 0.15f, 0.004f, 10), kBrass, translation(kHinge + glm::vec3(0.075f, 0, -0.022f)) * rotation(90, {0, 0, 1})));
     // The bearing the key turns in.
-    mesh.append(placed(cylinder(0.024f, 0.03f, 0.006f, 12),
-                       kChrome,
-                       translation(kKeyBearing + glm::vec3(0, 0, 0.022f)) * rotation(-90, {1, 0, 0})));
+    mesh.append(placed(
+        cylinder(0.024f, 0.03f, 0.006f, 12), kChrome, translation(kKeyBearing + glm::vec3(0, 0, 0.022f)) * rotation(-90, {1, 0, 0})));
     // The lever that would press the toast down.
-    mesh.append(placed(chamferBox({-0.014f, -0.011f, -0.024f}, {0.018f, 0.011f, 0.024f}, 0.006f),
-                       kChrome,
-                       translation({kBodyHalf.x, 0.03f, 0.0f})));
+    mesh.append(placed(
+        chamferBox({-0.014f, -0.011f, -0.024f}, {0.018f, 0.011f, 0.024f}, 0.006f), kChrome, translation({kBodyHalf.x, 0.03f, 0.0f})));
     smoothNormals(mesh, 50.0f);
     return {mesh, {}, {}};
 }
 
-Geometry makeHead()
-{
+Geometry makeHead() {
     const glm::vec2 centre{0.0f, -kHinge.z};
     std::vector<Ring> rings;
     std::vector<Slot> slots;
@@ -145,8 +122,7 @@ Geometry makeHead()
     return {mesh, {}, {}};
 }
 
-Geometry makeEye()
-{
+Geometry makeEye() {
     constexpr float kRadius = 0.042f;
     Profile profile{{0.0f, -kRadius}};
     // The pupil is its own cap, so that its edge is crisp.
@@ -160,16 +136,14 @@ Geometry makeEye()
     return {mesh, {}, {}};
 }
 
-Geometry makeKey()
-{
+Geometry makeKey() {
     Mesh mesh;
     const glm::mat4 backwards = rotation(-90, {1, 0, 0});
     mesh.append(placed(cylinder(0.009f, 0.07f, 0.002f, 8), kBrass, backwards));
-    for (float side : {-1.0f, 1.0f})
-        mesh.append(placed(torus(0.034f, 0.0085f, 12, 5), kBrass, translation({side * 0.037f, 0, -0.083f})));
+    for (float side : {-1.0f, 1.0f}) mesh.append(placed(torus(0.034f, 0.0085f, 12, 5), kBrass, translation({side * 0.037f, 0, -0.083f})));
     mesh.append(placed(sphere(0.014f, 8, 4), kBrass, translation({0, 0, -0.083f})));
     smoothNormals(mesh, 50.0f);
     return {mesh, {}, {}};
 }
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

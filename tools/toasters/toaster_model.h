@@ -6,20 +6,7 @@
 namespace obscura::toasters {
 
 /// Material slots shared by every part of a toy and by the tray.
-enum Slot : std::uint32_t {
-    kPaint,
-    kChrome,
-    kBrass,
-    kMouth,
-    kEnamel,
-    kPupil,
-    kRubber,
-    kBread,
-    kCrust,
-    kWood,
-    kDarkWood,
-    kSlotCount
-};
+enum Slot : std::uint32_t { kPaint, kChrome, kBrass, kMouth, kEnamel, kPupil, kRubber, kBread, kCrust, kWood, kDarkWood, kSlotCount };
 
 /// Joints of the leg skin, in order.
 enum Joint : std::uint8_t { kHipLeft, kKneeLeft, kAnkleLeft, kHipRight, kKneeRight, kAnkleRight, kJointCount };
@@ -49,4 +36,4 @@ kit::Geometry makeLegs();
 /// A slice with one morph target that bends its upper part forwards.
 kit::Geometry makeToast();
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

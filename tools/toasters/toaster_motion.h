@@ -66,4 +66,4 @@ private:
     std::vector<float> m_phases;
 };
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

@@ -20,8 +20,7 @@ constexpr glm::vec3 kAxisX{1.0f, 0.0f, 0.0f};
 constexpr glm::vec3 kAxisY{0.0f, 1.0f, 0.0f};
 
 /// Boards with grain along x and thin dark joints; repeats in both directions.
-Image paintWood()
-{
+Image paintWood() {
     constexpr int kBoards = 6;
     return paint(512, 512, [](glm::vec2 uv) {
         const float board = std::floor(uv.y * kBoards);
@@ -61,8 +60,7 @@ private:
     std::vector<int> m_paints;
 };
 
-void Builder::addMaterials()
-{
+void Builder::addMaterials() {
     const int wood = m_scene.addImage("wood", paintWood());
     m_materials.assign(kSlotCount, kNone);
     const auto add = [&](Slot slot, Material material) { m_materials[slot] = m_scene.addMaterial(std::move(material)); };
@@ -78,12 +76,10 @@ void Builder::addMaterials()
     add(kDarkWood, {"tray rim", glm::vec4(0.42f, 0.3f, 0.26f, 1.0f), 0.0f, 0.4f, wood});
     constexpr std::array<std::uint32_t, 5> kColours{0xC8322B, 0x2E8C86, 0xE3A21A, 0x3F6FB5, 0xE9DDC3};
     for (std::uint32_t colour : kColours)
-        m_paints.push_back(m_scene.addMaterial(
-            {"paint " + std::to_string(m_paints.size()), srgb(colour), 0.0f, 0.28f}));
+        m_paints.push_back(m_scene.addMaterial({"paint " + std::to_string(m_paints.size()), srgb(colour), 0.0f, 0.28f}));
 }
 
-void Builder::animateKey(int node, int turns)
-{
+void Builder::animateKey(int node, int turns) {
     // A steady turn about z. Its cubic tangents are the derivative of (0, 0, sin a/2, cos a/2).
     constexpr int kKeysPerTurn = 4;
     Channel channel{node, Path::Rotation, Interpolation::CubicSpline, {}, {}};
@@ -95,14 +91,12 @@ void Builder::animateKey(int node, int turns)
         const glm::vec2 value{std::sin(half), std::cos(half)};
         const glm::vec2 tangent{halfSpeed * value.y, -halfSpeed * value.x};
         channel.times.push_back(part * kDuration);
-        for (glm::vec2 v : {tangent, value, tangent})
-            channel.values.insert(channel.values.end(), {0.0f, 0.0f, v.x, v.y});
+        for (glm::vec2 v : {tangent, value, tangent}) channel.values.insert(channel.values.end(), {0.0f, 0.0f, v.x, v.y});
     }
     m_scene.channels.push_back(std::move(channel));
 }
 
-void Builder::addEyes(int index, int head, const std::vector<int>& materials)
-{
+void Builder::addEyes(int index, int head, const std::vector<int>& materials) {
     const std::string number = std::to_string(index);
     const int mesh = m_scene.addMesh("eye " + number, m_shapes.eye, materials);
     // Eye rotations are stepped: they jump between keys.
@@ -128,8 +122,7 @@ void Builder::addEyes(int index, int head, const std::vector<int>& materials)
     }
 }
 
-void Builder::addToy(int index, const Script& script)
-{
+void Builder::addToy(int index, const Script& script) {
     const std::string number = std::to_string(index);
     std::vector<int> materials = m_materials;
     materials[kPaint] = m_paints[static_cast<std::size_t>(index) % m_paints.size()];
@@ -138,8 +131,7 @@ void Builder::addToy(int index, const Script& script)
         node.name = name + "_" + number;
         node.parent = parent;
         node.translation = place;
-        if (geometry != kNone)
-            node.mesh = m_scene.addMesh(name + " " + number, geometry, materials);
+        if (geometry != kNone) node.mesh = m_scene.addMesh(name + " " + number, geometry, materials);
         return m_scene.addNode(node);
     };
 
@@ -177,20 +169,16 @@ void Builder::addToy(int index, const Script& script)
     const ToyMotion motion(script, kTrayFloor);
     const std::vector<float> times = sampleTimes(kDuration, kSampleRate);
     std::vector<ToyPose> poses;
-    for (float time : times)
-        poses.push_back(motion.at(time));
+    for (float time : times) poses.push_back(motion.at(time));
     // The loop closes exactly, not only up to rounding.
     poses.back() = poses.front();
-    const auto pose = [&](float time) -> const ToyPose& {
-        return poses[static_cast<std::size_t>(std::lround(time * kSampleRate))];
-    };
+    const auto pose = [&](float time) -> const ToyPose& { return poses[static_cast<std::size_t>(std::lround(time * kSampleRate))]; };
     m_scene.animateTranslation(walker, times, [&](float t) { return pose(t).root.translation; });
     m_scene.animateRotation(walker, times, [&](float t) { return pose(t).root.rotation; });
     m_scene.animateTranslation(body, times, [&](float t) { return pose(t).body.translation; });
     m_scene.animateRotation(body, times, [&](float t) { return pose(t).body.rotation; });
     m_scene.animateRotation(head, times, [&](float t) { return pose(t).head; });
-    for (std::size_t j = 0; j < joints.size(); ++j)
-        m_scene.animateRotation(joints[j], times, [&](float t) { return pose(t).joints[j]; });
+    for (std::size_t j = 0; j < joints.size(); ++j) m_scene.animateRotation(joints[j], times, [&](float t) { return pose(t).joints[j]; });
     m_scene.animateTranslation(toast, times, [&](float t) { return pose(t).toast.translation; });
     m_scene.animateRotation(toast, times, [&](float t) { return pose(t).toast.rotation; });
     m_scene.animateWeights(toast, times, [&](float t) { return std::vector<float>{pose(t).toastBend}; });
@@ -198,17 +186,12 @@ void Builder::addToy(int index, const Script& script)
     animateKey(key, kKeyTurns);
 }
 
-Scene Builder::build()
-{
+Scene Builder::build() {
     m_scene.name = "toasters";
     m_scene.animation = "walk";
     addMaterials();
-    m_shapes = {m_scene.addGeometry(makeJaw()),
-                m_scene.addGeometry(makeHead()),
-                m_scene.addGeometry(makeEye()),
-                m_scene.addGeometry(makeKey()),
-                m_scene.addGeometry(makeLegs()),
-                m_scene.addGeometry(makeToast())};
+    m_shapes = {m_scene.addGeometry(makeJaw()), m_scene.addGeometry(makeHead()), m_scene.addGeometry(makeEye()),
+        m_scene.addGeometry(makeKey()), m_scene.addGeometry(makeLegs()), m_scene.addGeometry(makeToast())};
     std::vector<int> trayMaterials = m_materials;
     trayMaterials[kPaint] = m_paints.front();
     Node tray;
@@ -216,17 +199,13 @@ Scene Builder::build()
     tray.mesh = m_scene.addMesh("tray", m_scene.addGeometry(makeTray()), trayMaterials);
     m_scene.addNode(tray);
     const std::vector<Script> scripts = makeScripts();
-    for (std::size_t i = 0; i < scripts.size(); ++i)
-        addToy(static_cast<int>(i), scripts[i]);
+    for (std::size_t i = 0; i < scripts.size(); ++i) addToy(static_cast<int>(i), scripts[i]);
     m_scene.addCamera({"main", 0.75f, 0.05f}, {1.3f, 1.75f, 3.7f}, {0.05f, 0.2f, 0.15f});
     return std::move(m_scene);
 }
 
-} // namespace
+}  // namespace
 
-Scene buildScene()
-{
-    return Builder().build();
-}
+Scene buildScene() { return Builder().build(); }
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

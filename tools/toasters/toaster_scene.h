@@ -11,4 +11,4 @@ inline constexpr float kDuration = 10.0f;
 /// The tray with its walking toasters, animated.
 kit::Scene buildScene();
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

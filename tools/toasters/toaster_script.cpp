@@ -17,8 +17,7 @@ using Keys = std::vector<Track::Key>;
 constexpr float kTau = glm::two_pi<float>();
 
 /// Keys for a walk that gathers speed, keeps it, and comes to a stop.
-void walk(Keys& keys, float from, float start, float to, float end)
-{
+void walk(Keys& keys, float from, float start, float to, float end) {
     constexpr float kRamp = 0.45f;
     const float speed = (end - start) / (to - from - kRamp);
     keys.push_back({from, start, 0.0f});
@@ -28,8 +27,7 @@ void walk(Keys& keys, float from, float start, float to, float end)
 }
 
 /// Moves all keys by whole laps so that their times lie within the loop, in order.
-Track looped(Keys keys, float gain)
-{
+Track looped(Keys keys, float gain) {
     for (Track::Key& key : keys) {
         const float laps = std::floor(key.time / kDuration);
         key.time -= laps * kDuration;
@@ -39,15 +37,11 @@ Track looped(Keys keys, float gain)
     return Track(kDuration, keys, gain);
 }
 
-float wrapped(float time)
-{
-    return time - std::floor(time / kDuration) * kDuration;
-}
+float wrapped(float time) { return time - std::floor(time / kDuration) * kDuration; }
 
 /// Both frogs follow one plan half a loop and half a lap apart: leap over the other on one
 /// straight, walk on, and stand still on the opposite straight to be leapt over.
-Script makeFrog(float delay)
-{
+Script makeFrog(float delay) {
     const Course course{{-1.2f, 0.0f}, 0.55f, 0.55f};
     const float lap = course.length();
     const Hop hop{2.2f + delay, 0.78f};
@@ -73,19 +67,11 @@ Script makeFrog(float delay)
 }
 
 /// Two rivals charge each other twice, then each turns away, walks off and comes back.
-Script makeRival(float direction)
-{
+Script makeRival(float direction) {
     const Course course{{1.2f, 0.0f}, 0.55f, 0.55f};
     constexpr float kContact = 0.184f;
-    Keys keys{{0.0f, -1.3f, 0.5f},
-              {2.5f, -kContact, 0.5f},
-              {2.56f, -kContact - 0.02f, -1.0f},
-              {2.9f, -0.42f, 0.0f},
-              {3.9f, -0.42f, 0.0f},
-              {4.15f, -0.48f, 0.0f},
-              {4.55f, -kContact, 1.1f},
-              {4.61f, -kContact - 0.03f, -1.5f},
-              {5.0f, -0.56f, 0.0f}};
+    Keys keys{{0.0f, -1.3f, 0.5f}, {2.5f, -kContact, 0.5f}, {2.56f, -kContact - 0.02f, -1.0f}, {2.9f, -0.42f, 0.0f}, {3.9f, -0.42f, 0.0f},
+        {4.15f, -0.48f, 0.0f}, {4.55f, -kContact, 1.1f}, {4.61f, -kContact - 0.03f, -1.5f}, {5.0f, -0.56f, 0.0f}};
     walk(keys, 6.35f, -0.56f, 8.3f, -1.5f);
     keys.push_back({9.35f, -1.5f, 0.0f});
     for (Track::Key& key : keys) {
@@ -93,8 +79,7 @@ Script makeRival(float direction)
         key.slope *= direction;
     }
     const float half = 0.5f * kTau * direction;
-    const Keys turn{
-        {5.4f, 0.0f, 0.0f}, {6.35f, half, 0.0f}, {8.35f, half, 0.0f}, {9.3f, 0.0f, 0.0f}};
+    const Keys turn{{5.4f, 0.0f, 0.0f}, {6.35f, half, 0.0f}, {8.35f, half, 0.0f}, {9.3f, 0.0f, 0.0f}};
     Script script{course, direction, looped(keys, 0.0f), looped(turn, 0.0f), {}, {}, {}, {}};
     script.bumps = {2.5f, 4.55f};
     if (direction > 0.0f) {
@@ -108,8 +93,7 @@ Script makeRival(float direction)
 }
 
 /// The loner walks a narrow round, leaps and spins on the spot, and catches its toast on the move.
-Script makeLoner()
-{
+Script makeLoner() {
     const Course course{{0.0f, 0.0f}, 0.5f, 0.3f};
     const float lap = course.length();
     const Hop hop{7.4f, 0.32f};
@@ -125,17 +109,13 @@ Script makeLoner()
     return script;
 }
 
-} // namespace
+}  // namespace
 
-float Hop::duration() const
-{
-    return 2.0f * std::sqrt(2.0f * height / kGravity);
-}
+float Hop::duration() const { return 2.0f * std::sqrt(2.0f * height / kGravity); }
 
-std::vector<Script> makeScripts()
-{
+std::vector<Script> makeScripts() {
     constexpr float kHalfLoop = 0.5f * kDuration;
     return {makeFrog(0.0f), makeFrog(kHalfLoop), makeRival(1.0f), makeRival(-1.0f), makeLoner()};
 }
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

@@ -39,4 +39,4 @@ inline constexpr float kGravity = 9.81f;
 /// Toys 0 and 1 play leapfrog, 2 and 3 run into each other, 4 goes round between them.
 std::vector<Script> makeScripts();
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

@@ -11,4 +11,4 @@ inline constexpr float kTrayFloor = 0.06f;
 /// A wooden tray standing on y = 0, with a raised rim and round recesses in its floor.
 kit::Geometry makeTray();
 
-} // namespace obscura::toasters
+}  // namespace obscura::toasters

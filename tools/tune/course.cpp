@@ -15,13 +15,15 @@ namespace obscura::tune {
 Place placeOf(const std::string& text, const char* option) {
     const size_t mark = text.rfind('@');
     const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
-    if (at.size() != 1 || at[0] < 0.0f) throw app::Complaint(fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough", option, text));
+    if (at.size() != 1 || at[0] < 0.0f)
+        throw app::Complaint(fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough", option, text));
     const evaluate::SceneFile file = evaluate::findScene(text.substr(0, mark));
     if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.name));
     return {file.name, at[0], text};
 }
 
-Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs, const flythrough::Settings& settings) {
+Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs,
+    const flythrough::Settings& settings) {
     for (const Place& place : places)
         for (const evaluate::FalloffChoice& falloff : falloffs) {
             flythrough::Settings with = settings;
@@ -47,7 +49,8 @@ Score score(Course& course, const evaluate::Candidate& candidate, const evaluate
     Score result;
     double logError = 0.0, logTime = 0.0, flicker = 0.0, handFlicker = 0.0;
     for (size_t leg = 0; leg < course.size(); ++leg) {
-        const Leg is = course.fly(leg, candidate), then = course.fly(leg, hand);  // the hand-set preset is timed again, because the machine's speed drifts
+        const Leg is = course.fly(leg, candidate),
+                  then = course.fly(leg, hand);  // the hand-set preset is timed again, because the machine's speed drifts
         const Leg& was = handLegs[leg];
         result.errors.push_back(is.eA / std::max(was.eA, 1e-6));
         result.times.push_back(is.milliseconds / std::max(then.milliseconds, 1e-6));
@@ -65,7 +68,8 @@ Score score(Course& course, const evaluate::Candidate& candidate, const evaluate
 
 double objective(const Score& score, const Limits& limits) {
     constexpr double kTimeWeight = 4.0, kFlickerWeight = 4.0;
-    return score.error * (1.0 + kTimeWeight * std::max(0.0, score.time / limits.time - 1.0)) * (1.0 + kFlickerWeight * std::max(0.0, score.flicker / limits.flicker - 1.0));
+    return score.error * (1.0 + kTimeWeight * std::max(0.0, score.time / limits.time - 1.0)) *
+           (1.0 + kFlickerWeight * std::max(0.0, score.flicker / limits.flicker - 1.0));
 }
 
 }  // namespace obscura::tune

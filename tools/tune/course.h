@@ -10,22 +10,23 @@ namespace obscura::tune {
 // "atrium@4": a scene, and the time on its flythrough at which a flight begins.
 struct Place {
     std::string scene;
-    double at = 0.0;                 // s
+    double at = 0.0;  // s
     std::string text;
 };
 Place placeOf(const std::string& text, const char* option);  // throws app::Complaint
 
-struct Leg {                         // measurements of one flight
+struct Leg {                                             // measurements of one flight
     double eA = 0.0, flicker = 0.0, milliseconds = 0.0;  // means over its frames; sum of the passes' medians
 };
 
 class Course {
 public:
-    Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs, const flythrough::Settings& settings);
+    Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs,
+        const flythrough::Settings& settings);
     size_t size() const { return m_flights.size(); }
     const std::string& name(size_t leg) const { return m_names[leg]; }  // "atrium@4 quadratic:2"
     Leg fly(size_t leg, const evaluate::Candidate& candidate);
-    std::string keyOf(const evaluate::Candidate& candidate) const;      // hash of everything that determines fly() except time
+    std::string keyOf(const evaluate::Candidate& candidate) const;  // hash of everything that determines fly() except time
 
 private:
     std::vector<std::unique_ptr<flythrough::Flight>> m_flights;

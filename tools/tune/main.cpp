@@ -15,7 +15,8 @@ int run(int argc, char** argv) {
     if (!options) return 0;
     app::expectFolder(options->out);
     evaluate::Machine machine({options->device, options->validation, options->verbose});
-    Course training(machine, options->training, options->falloffs, options->flight), heldOut(machine, options->heldOut, options->falloffs, options->flight);
+    Course training(machine, options->training, options->falloffs, options->flight),
+        heldOut(machine, options->heldOut, options->falloffs, options->flight);
     std::vector<Tuned> results;
     for (const evaluate::Candidate& hand : options->hands) {
         results.push_back(tune(*options, hand, training, heldOut));

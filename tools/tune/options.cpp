@@ -1,7 +1,7 @@
 #include "options.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/arguments.h"
 #include "app/complaint.h"
@@ -12,13 +12,16 @@ namespace obscura::tune {
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
-    CLI::App cli{"Searches a method's parameters for the least error within limits of time and flicker, and measures the result on held-out places.", "obscura-tune"};
+    CLI::App cli{
+        "Searches a method's parameters for the least error within limits of time and flicker, and measures the result on held-out places.",
+        "obscura-tune"};
     cli.set_help_flag("-h,--help", "Print this and exit");
     cli.set_version_flag("--version", "Obscura " OBSCURA_VERSION);
     cli.footer(
         "The search starts at a hand-set preset. Time, error and flicker are ratios to that preset, measured in turns. The\n"
         "best settings of the training places are measured again, and the winner also on held-out places and scenes. Writes to --out:\n"
-        "a log for each preset (an interrupted search resumes from it; with it, the same seed gives the same result), tune.json, tune.md with the presets'\n"
+        "a log for each preset (an interrupted search resumes from it; with it, the same seed gives the same result), tune.json, tune.md "
+        "with the presets'\n"
         "values in the syntax of a method's source.\n\n"
         "Examples:\n"
         "  obscura-tune --method hbao --preset tuned --out out/tune\n"
@@ -26,7 +29,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-tune --method layered --time 2 --parameters slices,steps,sheet                   least error at twice the time");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     evaluate::CandidateOptions chosen;
-    std::vector<std::string> training{"toasters@2", "toasters@7", "atrium@4", "atrium@16"}, heldOut{"toasters@11", "atrium@25", "sponza@4", "dragon@4"};
+    std::vector<std::string> training{"toasters@2", "toasters@7", "atrium@4", "atrium@16"},
+        heldOut{"toasters@11", "atrium@25", "sponza@4", "dragon@4"};
     std::vector<std::string> falloffs{"quadratic:2", "exponential:1"};
     std::string size = "160x90", out = "out/tune";
     uint32_t frames = 4;
@@ -35,20 +39,32 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     cli.option_defaults()->group("Search");
     addCandidateOptions(cli, chosen);
-    takeAll(cli.add_option("--parameters", options.parameters, "Parameters to search, or METHOD.PARAMETER (default: all numeric parameters of the method's own)"));
-    cli.add_option("--time", options.limits.time, "Limit of time, relative to the preset")->check(CLI::Range(0.01, 100.0))->capture_default_str();
-    cli.add_option("--flicker", options.limits.flicker, "Limit of flicker, relative to the preset")->check(CLI::Range(0.01, 100.0))->capture_default_str();
-    cli.add_option("--evaluations", options.evaluations, "Settings measured in a search")->check(CLI::Range(4u, 100000u))->capture_default_str();
-    cli.add_option("--rounds", options.rounds, "How often the best settings are measured again, and the winner on held-out places")->check(CLI::Range(3u, 1000u))->capture_default_str();
+    takeAll(cli.add_option("--parameters", options.parameters,
+        "Parameters to search, or METHOD.PARAMETER (default: all numeric parameters of the method's own)"));
+    cli.add_option("--time", options.limits.time, "Limit of time, relative to the preset")
+        ->check(CLI::Range(0.01, 100.0))
+        ->capture_default_str();
+    cli.add_option("--flicker", options.limits.flicker, "Limit of flicker, relative to the preset")
+        ->check(CLI::Range(0.01, 100.0))
+        ->capture_default_str();
+    cli.add_option("--evaluations", options.evaluations, "Settings measured in a search")
+        ->check(CLI::Range(4u, 100000u))
+        ->capture_default_str();
+    cli.add_option("--rounds", options.rounds, "How often the best settings are measured again, and the winner on held-out places")
+        ->check(CLI::Range(3u, 1000u))
+        ->capture_default_str();
     cli.add_option("--seed", options.seed, "Seed of the search")->capture_default_str();
 
     cli.option_defaults()->group("Places");
     takeAll(cli.add_option("--train", training, "SCENE@SECONDS on the scene's flythrough; several with commas")->capture_default_str());
-    takeAll(cli.add_option("--held-out", heldOut, "Held-out places, on which the winner is measured; missing scenes are left out")->capture_default_str());
+    takeAll(cli.add_option("--held-out", heldOut, "Held-out places, on which the winner is measured; missing scenes are left out")
+            ->capture_default_str());
     takeAll(cli.add_option("--falloff", falloffs, "KIND:LENGTH in metres, or ramp:START:END; several with commas")->capture_default_str());
     cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band")->capture_default_str();
     cli.add_option("--frames", frames, "Frames flown at each place")->check(CLI::Range(2u, 10000u))->capture_default_str();
-    cli.add_option("--rays", options.flight.rays, "Rays per pixel of the references")->check(CLI::Range(32u, 65536u))->capture_default_str();
+    cli.add_option("--rays", options.flight.rays, "Rays per pixel of the references")
+        ->check(CLI::Range(32u, 65536u))
+        ->capture_default_str();
     cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
 
     cli.option_defaults()->group("Output");

@@ -9,8 +9,8 @@
 namespace obscura::tune {
 
 struct Options {
-    std::vector<evaluate::Candidate> hands;     // hand-set presets: starts of the searches, to which results are compared
-    std::vector<std::string> parameters;        // empty: the default of Space
+    std::vector<evaluate::Candidate> hands;  // hand-set presets: starts of the searches, to which results are compared
+    std::vector<std::string> parameters;     // empty: the default of Space
     std::vector<Place> training, heldOut;
     std::vector<evaluate::FalloffChoice> falloffs;
     flythrough::Settings flight;

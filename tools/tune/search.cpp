@@ -45,7 +45,8 @@ void run(nlopt::algorithm algorithm, State& state, uint32_t limit) {
 
 }  // namespace
 
-std::vector<double> search(const std::vector<double>& start, uint32_t evaluations, uint32_t seed, const std::function<Answer(const std::vector<double>&)>& evaluate) {
+std::vector<double> search(const std::vector<double>& start, uint32_t evaluations, uint32_t seed,
+    const std::function<Answer(const std::vector<double>&)>& evaluate) {
     nlopt::srand(seed);
     State state{evaluate, 0, 0, evaluations, std::numeric_limits<double>::infinity(), start};
     state.ask(start);

@@ -13,6 +13,7 @@ struct Answer {
     double value = 0.0;
     bool fresh = true;
 };
-std::vector<double> search(const std::vector<double>& start, uint32_t evaluations, uint32_t seed, const std::function<Answer(const std::vector<double>&)>& evaluate);
+std::vector<double> search(const std::vector<double>& start, uint32_t evaluations, uint32_t seed,
+    const std::function<Answer(const std::vector<double>&)>& evaluate);
 
 }  // namespace obscura::tune

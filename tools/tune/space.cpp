@@ -40,7 +40,8 @@ Space::Space(const evaluate::Candidate& start, const std::vector<std::string>& n
         const bool named = std::find(wanted.begin(), wanted.end(), parameter.id) != wanted.end();
         if (wanted.empty() ? parameter.choices.size() > 0 || shared(parameter.id) : !named) continue;
         const double value = start.values[parameter.id];
-        Axis axis{&parameter, parameter.minimum, parameter.maximum, value, value > 0.0 && parameter.minimum >= 0.0f && parameter.choices.size() == 0};
+        Axis axis{&parameter, parameter.minimum, parameter.maximum, value,
+            value > 0.0 && parameter.minimum >= 0.0f && parameter.choices.size() == 0};
         if (axis.ratios) axis.low = std::max(axis.low, value / kFactor), axis.high = std::min(axis.high, value * kFactor);
         if (axis.high > axis.low) m_axes.push_back(axis);
     }
@@ -57,7 +58,9 @@ double Space::Axis::value(double u) const {
 std::vector<double> Space::start() const {
     std::vector<double> point;
     for (const Axis& axis : m_axes)
-        point.push_back(std::clamp(axis.ratios ? std::log(axis.start / axis.low) / std::log(axis.high / axis.low) : (axis.start - axis.low) / (axis.high - axis.low), 0.0, 1.0));
+        point.push_back(std::clamp(axis.ratios ? std::log(axis.start / axis.low) / std::log(axis.high / axis.low)
+                                               : (axis.start - axis.low) / (axis.high - axis.low),
+            0.0, 1.0));
     return point;
 }
 

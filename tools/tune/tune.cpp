@@ -36,7 +36,8 @@ Json toJson(const Score& score) {
     return {{"error", score.error}, {"flicker", score.flicker}, {"time", score.time}, {"errors", score.errors}, {"times", score.times}};
 }
 Score scoreOf(const Json& json) {
-    return {json.at("error"), json.at("flicker"), json.at("time"), json.at("errors").get<std::vector<double>>(), json.at("times").get<std::vector<double>>()};
+    return {json.at("error"), json.at("flicker"), json.at("time"), json.at("errors").get<std::vector<double>>(),
+        json.at("times").get<std::vector<double>>()};
 }
 
 // All scores of a search by name, saved to a file, from which an interrupted search resumes.
@@ -49,7 +50,9 @@ public:
             const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
             if (json.at("key") != m_key) return;
             for (const Json& line : json.at("scores")) m_scores.push_back({line.at("of"), scoreOf(line)});
-        } catch (const Json::exception&) { m_scores.clear(); }  // not a log of this program
+        } catch (const Json::exception&) {
+            m_scores.clear();
+        }  // not a log of this program
     }
     const Score* find(const std::string& of) const {
         for (const auto& [name, score] : m_scores)
@@ -82,12 +85,13 @@ std::vector<Leg> legsOf(Course& course, const evaluate::Candidate& hand) {
 }
 
 // Errors and flicker are deterministic; times are medians over rounds.
-Score again(Log& log, const std::string& what, Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand, const std::vector<Leg>& legs,
-            uint32_t rounds, std::vector<double>* times = nullptr) {
+Score again(Log& log, const std::string& what, Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand,
+    const std::vector<Leg>& legs, uint32_t rounds, std::vector<double>* times = nullptr) {
     Score result;
     std::vector<double> all;
     for (uint32_t round = 0; round < rounds; ++round) {
-        result = log.get(fmt::format("{} {}: {}", what, round, settingsOf(candidate, hand)), [&] { return score(course, candidate, hand, legs); });
+        result = log.get(
+            fmt::format("{} {}: {}", what, round, settingsOf(candidate, hand)), [&] { return score(course, candidate, hand, legs); });
         all.push_back(result.time);
     }
     result.time = app::percentile(all, 0.5);
@@ -103,7 +107,8 @@ bool Tuned::real(const Limits& limits) const {
         auto& [sum, count] = scenes[legs[i].substr(0, legs[i].find('@'))];
         sum += std::log(std::max(heldOut.errors[i], 1e-6)), count += 1.0;
     }
-    const bool nowhereWorse = std::all_of(scenes.begin(), scenes.end(), [](const auto& scene) { return std::exp(scene.second.first / scene.second.second) <= kLoss; });
+    const bool nowhereWorse = std::all_of(
+        scenes.begin(), scenes.end(), [](const auto& scene) { return std::exp(scene.second.first / scene.second.second) <= kLoss; });
     return nowhereWorse && heldOut.error <= kGain && heldOut.time <= limits.time * kNoise && heldOut.flicker <= limits.flicker * kNoise;
 }
 
@@ -176,16 +181,19 @@ std::string presetText(const evaluate::Candidate& candidate) {
 
 std::string markdown(const Options& options, const std::vector<Tuned>& results) {
     std::string text = fmt::format(
-        "# Searched settings\n\n    {}\n\nRatios to the hand-set preset, measured in turns, geometric means; below 1 is better. A winner is *real* with at least 2 % less error on\n"
+        "# Searched settings\n\n    {}\n\nRatios to the hand-set preset, measured in turns, geometric means; below 1 is better. A winner "
+        "is *real* with at least 2 % less error on\n"
         "held-out places, nowhere 2 % more, at most {:g} times the time and {:g} times the flicker.\n\n"
-        "| preset | trials | error, training | error, held out | time, held out | 95 % of it | flicker, held out | real | settings over the preset |\n"
+        "| preset | trials | error, training | error, held out | time, held out | 95 % of it | flicker, held out | real | settings over "
+        "the preset |\n"
         "|---|--:|--:|--:|--:|--:|--:|---|---|\n",
         options.command, options.limits.time, options.limits.flicker);
     for (const Tuned& r : results)
         text += r.training.settings.empty()
                     ? fmt::format("| {} | {} | | | | | | no | nothing better found |\n", r.hand.label(), r.trials.size())
-                    : fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} to {:.3f} | {:.3f} | {} | {} |\n", r.hand.label(), r.trials.size(), r.training.score.error,
-                                  r.heldOut.error, r.heldOut.time, r.timeLow, r.timeHigh, r.heldOut.flicker, r.real(options.limits) ? "yes" : "no", r.training.settings);
+                    : fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} to {:.3f} | {:.3f} | {} | {} |\n", r.hand.label(),
+                          r.trials.size(), r.training.score.error, r.heldOut.error, r.heldOut.time, r.timeLow, r.timeHigh,
+                          r.heldOut.flicker, r.real(options.limits) ? "yes" : "no", r.training.settings);
     text += "\nError of each held-out place:\n\n| preset |";
     if (!results.empty()) {
         std::string rule = "\n|---|";
@@ -206,14 +214,16 @@ std::string markdown(const Options& options, const std::vector<Tuned>& results) 
 std::string jsonText(const Options& options, const std::vector<Tuned>& results) {
     Json json{{"command", options.command}, {"results", Json::array()}};
     for (const Tuned& r : results) {
-        Json line{{"preset", r.hand.label()}, {"settings", r.training.settings}, {"values", presetText(r.best)}, {"real", r.real(options.limits)}};
+        Json line{{"preset", r.hand.label()}, {"settings", r.training.settings}, {"values", presetText(r.best)},
+            {"real", r.real(options.limits)}};
         line["training"] = toJson(r.training.score);
         line["heldOut"] = toJson(r.heldOut);
         line["heldOut"]["time95"] = {digits(r.timeLow), digits(r.timeHigh)};
         line["legs"] = r.legs;
         line["trials"] = Json::array();
         for (const Trial& t : r.trials)
-            line["trials"].push_back({{"settings", t.settings}, {"error", digits(t.score.error)}, {"flicker", digits(t.score.flicker)}, {"time", digits(t.score.time)}, {"objective", digits(t.objective)}});
+            line["trials"].push_back({{"settings", t.settings}, {"error", digits(t.score.error)}, {"flicker", digits(t.score.flicker)},
+                {"time", digits(t.score.time)}, {"objective", digits(t.objective)}});
         json["results"].push_back(std::move(line));
     }
     return json.dump(1) + "\n";

@@ -8,7 +8,9 @@ constexpr uint32_t kColumns = 64, kRows = 128;  // as in table.glsl
 }  // namespace
 
 gpu::Status FalloffTable::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffTable& out) {
-    const gpu::Status status = gpu::Image::create(device, {VK_FORMAT_R32G32B32A32_UINT, kColumns, kRows, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}, "falloff table", out.m_table);
+    const gpu::Status status = gpu::Image::create(device,
+        {VK_FORMAT_R32G32B32A32_UINT, kColumns, kRows, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}, "falloff table",
+        out.m_table);
     return status != gpu::Status::ok ? status : gpu::Program::compute(device, shaders, "ao/far_field/table.comp", {}, out.m_program);
 }
 
@@ -20,7 +22,10 @@ graph::ImageId FalloffTable::add(graph::Graph& graph, const Inputs& inputs, cons
     external.layoutAfter = VK_IMAGE_LAYOUT_GENERAL;
     const graph::ImageId table = graph.import("falloff table", external);
     if (!same) {
-        const struct { shared::FalloffBlock falloff; float unit; } constants{inputs.falloff, f.length};
+        const struct {
+            shared::FalloffBlock falloff;
+            float unit;
+        } constants{inputs.falloff, f.length};
         graph.pass(passName, m_program).write(table).constants(constants).dispatch(kRows);
         graph.onRecorded([this, f] {
             m_falloff = f;

@@ -46,53 +46,56 @@ const char* const kSparsities[] = {"every", "every 2nd", "every 4th"};
 
 const Parameter kParameters[] = {
     {"directions", "", 4, 32, 12, true, {},
-     "Directions in which the depth buffer is scanned, K. Cost and memory grow with them; even numbers scan opposite directions "
-     "together. Too few: bands."},
+        "Directions in which the depth buffer is scanned, K. Cost and memory grow with them; even numbers scan opposite directions "
+        "together. Too few: bands."},
     {"segments", "", 1, 8, 2, true, {},
-     "Segments of each sector, evaluated separately. The cost per pixel grows with directions x segments. Too few: bands."},
+        "Segments of each sector, evaluated separately. The cost per pixel grows with directions x segments. Too few: bands."},
     {"interval", "px", 3, 20, 5, true, {},
-     "Shortest interval that is reduced to one point, B0. Longer costs less and widens the near field. Too long: small occluders are "
-     "missed."},
+        "Shortest interval that is reduced to one point, B0. Longer costs less and widens the near field. Too long: small occluders are "
+        "missed."},
     {"longest", "", 0.25f, 1, 0.5f, false, {},
-     "Longest interval, as a fraction of its distance; 1 in the paper. Shorter costs more. Too long: intervals, which run along the "
-     "middle of a sector, reach across its sides and leave bands."},
+        "Longest interval, as a fraction of its distance; 1 in the paper. Shorter costs more. Too long: intervals, which run along the "
+        "middle of a sector, reach across its sides and leave bands."},
     {"lines", "", 0, 2, 0, true, {kSparsities, 3},
-     "Which of the scan lines, 1 px apart, are used. Fewer cost less; too few: thin objects are missed."},
+        "Which of the scan lines, 1 px apart, are used. Fewer cost less; too few: thin objects are missed."},
     {"slope", "", -2, 2, 1, false, {},
-     "Slope s of the second angle from which the highest point of an interval is chosen: -1, from above, in the paper. 0 counts as 1."},
+        "Slope s of the second angle from which the highest point of an interval is chosen: -1, from above, in the paper. 0 counts as 1."},
     {"estimator", "", 0, 2, 2, true, {kEstimators, 3},
-     "Shape of the surface below a point: a slab away from the camera, as in the paper, a line to the previous point, or a blend of "
-     "both. All cost the same."},
+        "Shape of the surface below a point: a slab away from the camera, as in the paper, a line to the previous point, or a blend of "
+        "both. All cost the same."},
     {"averaging", "", 0, 3, 2, true, {kAveragings, 4},
-     "How points are averaged over the width of a sector: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth, "
-     "with a sixth of the memory. direct: single texels of the depth buffer, no scans. Without averaging thin objects alias. Only the "
-     "pyramid reads depth layers."},
+        "How points are averaged over the width of a sector: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth, "
+        "with a sixth of the memory. direct: single texels of the depth buffer, no scans. Without averaging thin objects alias. Only the "
+        "pyramid reads depth layers."},
     {"near", "", 0, 16, 5, true, {},
-     "Samples of the near field in each segment. Cost grows with them. 0: far field only; too few: contact shadows are lost."},
+        "Samples of the near field in each segment. Cost grows with them. 0: far field only; too few: contact shadows are lost."},
     {"parts", "", 0, 2, 0, true, {kParts, 3},
-     "Output: both fields, the near field alone, or the far field alone above the horizon of the near field."},
+        "Output: both fields, the near field alone, or the far field alone above the horizon of the near field."},
     kInterleave,
     {"thickness", "m", 0, 100, 0, false, {},
-     "Thickness of surfaces, in 32 bins of each sector; 0: endless. Above 0 turns off averaging, interleaving and depth layers. Too low: "
-     "light leaks through solid objects."},
+        "Thickness of surfaces, in 32 bins of each sector; 0: endless. Above 0 turns off averaging, interleaving and depth layers. Too "
+        "low: light leaks through solid objects."},
     {"jitter", "", 0, 1, 0, false, {},
-     "Random turn of the directions of each pixel, as a fraction of half a segment: noise instead of bands. The interleaved far field "
-     "ignores it."},
+        "Random turn of the directions of each pixel, as a fraction of half a segment: noise instead of bands. The interleaved far field "
+        "ignores it."},
     {"alternate", "", 0, 1, 1, true, {kOffOn, 2},
-     "Turns the directions of every other pixel by half a segment: bands become a fine checkerboard, which shows beside tall objects "
-     "only. Free. Off if interleaved or jittered."},
+        "Turns the directions of every other pixel by half a segment: bands become a fine checkerboard, which shows beside tall objects "
+        "only. Free. Off if interleaved or jittered."},
     kDepthLayers,
     kSheet,
     {"blur", "", 0, 0.5f, 0.07f, false, {},
-     "After interleaving: 5x5 mean of neighbours whose visibility differs by at most this; 0: off. Too low: grain where near and far "
-     "field meet; too high: contact shadows blur."},
+        "After interleaving: 5x5 mean of neighbours whose visibility differs by at most this; 0: off. Too low: grain where near and far "
+        "field meet; too high: contact shadows blur."},
 };
-const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"alternate", 0}, {"interval", 5}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1},
-                              {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kTile3x3}};
+const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0}, {"interval", 10}, {"longest", 1}, {"slope", -1},
+    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"alternate", 0}, {"interval", 5}, {"longest", 1}, {"slope", -1},
+    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab},
+    {"averaging", 1}, {"near", 5}, {"interleave", kTile3x3}};
 const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"near", 3}, {"interleave", kTile3x3}};
-const Setting kThin[] = {{"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
+const Setting kThin[] = {
+    {"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
 const Setting kLayers[] = {{"depth_layers", float(LayerMode::second)}};
 const Preset kPresets[] = {
     {"default", "12 directions x 2 segments, blended estimator, lateral pyramid.", {}},
@@ -103,13 +106,9 @@ const Preset kPresets[] = {
     {"layers", "The default with depth layers: finite objects stop occluding behind their back faces.", {kLayers, std::size(kLayers)}},
     {"thin", "Surfaces 10 cm thick, 16 directions without averaging, jittered.", {kThin, std::size(kThin)}},
 };
-const MethodInfo kInfo{"far_field",
-                       "Far-field ambient obscurance",
-                       "Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013",
-                       "Occluders from the whole depth buffer, at a cost that does not depend on radius or falloff.",
-                       kDepth | kNormals,
-                       {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)}};
+const MethodInfo kInfo{"far_field", "Far-field ambient obscurance", "Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013",
+    "Occluders from the whole depth buffer, at a cost that does not depend on radius or falloff.", kDepth | kNormals,
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
 
 class FarField final : public Method {
 public:
@@ -120,17 +119,28 @@ public:
             const bool thin = i == uint32_t(Averaging::none) || i == uint32_t(Averaging::direct);
             const auto make = [&](const char* pass, std::initializer_list<gpu::Constant> constants, gpu::Program& program) {
                 const char* end = i == uint32_t(Averaging::prefixSums) ? "_sums.comp" : ".comp";
-                return gpu::Program::compute(device, shaders, std::string("ao/far_field/") + pass + end, constants, program) == gpu::Status::ok;
+                return gpu::Program::compute(device, shaders, std::string("ao/far_field/") + pass + end, constants, program) ==
+                       gpu::Status::ok;
             };
             if (!make("scan", {{0, i}}, result->m_scan[i]) || !make("obscurance", {{0, i}, {1, 0}}, result->m_obscurance[i]) ||
-                !make("interleaved", {{0, i}}, result->m_interleaved[i]) || (thin && !make("obscurance", {{0, i}, {1, 1}}, result->m_thin[i]))) return nullptr;
+                !make("interleaved", {{0, i}}, result->m_interleaved[i]) ||
+                (thin && !make("obscurance", {{0, i}, {1, 1}}, result->m_thin[i])))
+                return nullptr;
         }
-        const struct { const char* name; gpu::Program* program; } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid},
-                                                                                {"box_average", &result->m_boxAverage}, {"blur", &result->m_blur}};
-        if (Gather::create(device, shaders, result->m_gather) != Status::ok || FarFieldLayers::create(device, shaders, result->m_layers) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/far_field/obscurance_layers.comp", {{0, uint32_t(Averaging::pyramid)}}, result->m_layered) != gpu::Status::ok) return nullptr;
+        const struct {
+            const char* name;
+            gpu::Program* program;
+        } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid}, {"box_average", &result->m_boxAverage},
+            {"blur", &result->m_blur}};
+        if (Gather::create(device, shaders, result->m_gather) != Status::ok ||
+            FarFieldLayers::create(device, shaders, result->m_layers) != gpu::Status::ok)
+            return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/far_field/obscurance_layers.comp", {{0, uint32_t(Averaging::pyramid)}},
+                result->m_layered) != gpu::Status::ok)
+            return nullptr;
         for (const auto& [name, program] : programs)
-            if (gpu::Program::compute(device, shaders, std::string("ao/far_field/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, std::string("ao/far_field/") + name + ".comp", {}, *program) != gpu::Status::ok)
+                return nullptr;
         return result;
     }
 
@@ -141,8 +151,10 @@ public:
         const uint32_t side = thickness > 0.0f ? 1 : tileSide(values);
         auto averaging = Averaging(values.count("averaging"));
         if (thickness > 0.0f && averaging != Averaging::direct) averaging = Averaging::none;
-        const uint32_t directions = std::min(sharedOut(values.count("directions"), side), 32u / (side * side) * side * side), lineStep = 1u << values.count("lines");
-        const FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, graph.device().caps().maxImageSize);
+        const uint32_t directions = std::min(sharedOut(values.count("directions"), side), 32u / (side * side) * side * side),
+                       lineStep = 1u << values.count("lines");
+        const FarFieldGrid grid =
+            farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, graph.device().caps().maxImageSize);
         const float slope = values["slope"];
         const float connections[] = {0.0f, 1.0f, 0.75f};
         shared::FarFieldConstants constants{};
@@ -163,24 +175,44 @@ public:
         constants.jitter = values["jitter"];
         constants.alternate = side == 1 && constants.jitter <= 0.0f && values.count("alternate");
 
-        const FarFieldLayers::Fields fields = layered ? m_layers.split(graph, inputs, values["sheet"]) : FarFieldLayers::Fields{inputs.depth, {}};
-        const graph::BufferId grids = graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
+        const FarFieldLayers::Fields fields =
+            layered ? m_layers.split(graph, inputs, values["sheet"]) : FarFieldLayers::Fields{inputs.depth, {}};
+        const graph::BufferId grids =
+            graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
         graph::ImageId cells = inputs.normals;  // bound but not read if there are no cells
         if (averaging != Averaging::direct) cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
         const uint32_t run = averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1);
-        if (averaging != Averaging::direct) graph.pass("far_field.scan", m_scan[uint32_t(averaging)]).read(inputs.viewBlock).read(fields.background).read(grids).write(cells)
-            .constants(constants).dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
+        if (averaging != Averaging::direct)
+            graph.pass("far_field.scan", m_scan[uint32_t(averaging)])
+                .read(inputs.viewBlock)
+                .read(fields.background)
+                .read(grids)
+                .write(cells)
+                .constants(constants)
+                .dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
         if (averaging == Averaging::prefixSums)
-            graph.pass("far_field.prefix sums", m_prefix).read(grids).write(cells).constants(constants).dispatch(grid.intervals, grid.levels, directions);
+            graph.pass("far_field.prefix sums", m_prefix)
+                .read(grids)
+                .write(cells)
+                .constants(constants)
+                .dispatch(grid.intervals, grid.levels, directions);
         for (uint32_t from = 0; averaging == Averaging::pyramid && from + 1 < grid.levels; from += 3) {
-            const struct { shared::FarFieldConstants constants; uint32_t from; } levels{constants, from};
+            const struct {
+                shared::FarFieldConstants constants;
+                uint32_t from;
+            } levels{constants, from};
             const uint32_t block = 8u << from;
-            graph.pass("far_field.pyramid", m_pyramid).read(inputs.viewBlock).read(grids).write(cells).constants(levels)
+            graph.pass("far_field.pyramid", m_pyramid)
+                .read(inputs.viewBlock)
+                .read(grids)
+                .write(cells)
+                .constants(levels)
                 .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
         }
         const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
         if (layered) return layers(graph, inputs, scanned, fields, m_layers.scan(graph, inputs, fields.objects, grids, grid, constants));
-        return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"]) : obscurance(graph, inputs, scanned, "far_field.obscurance");
+        return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"])
+                        : obscurance(graph, inputs, scanned, "far_field.obscurance");
     }
 
     // Without layers even the farthest surface is endless.
@@ -202,20 +234,41 @@ private:
         const auto& visible = inputs.view.visible;
         const graph::ImageId result = graph.image(name, {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         auto& programs = scanned.constants.thickness > 0.0f ? m_thin : m_obscurance;
-        graph.pass(name, programs[uint32_t(scanned.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(scanned.grids)
-            .read(scanned.cells).read(scanned.table).write(result).constants(scanned.constants).dispatch(visible.x, visible.y);
+        graph.pass(name, programs[uint32_t(scanned.averaging)])
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(inputs.normals)
+            .read(scanned.grids)
+            .read(scanned.cells)
+            .read(scanned.table)
+            .write(result)
+            .constants(scanned.constants)
+            .dispatch(visible.x, visible.y);
         return result;
     }
 
     static bool readsLayers(const Values& values) {
-        return layerModeOf(values) != LayerMode::none && Averaging(values.count("averaging")) == Averaging::pyramid && values["thickness"] <= 0.0f && tileSide(values) == 1;
+        return layerModeOf(values) != LayerMode::none && Averaging(values.count("averaging")) == Averaging::pyramid &&
+               values["thickness"] <= 0.0f && tileSide(values) == 1;
     }
 
-    graph::ImageId layers(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const FarFieldLayers::Fields& fields, graph::ImageId objectCells) {
+    graph::ImageId layers(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const FarFieldLayers::Fields& fields,
+        graph::ImageId objectCells) {
         const auto& visible = inputs.view.visible;
         const graph::ImageId result = graph.image("far_field.obscurance", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("far_field.obscurance", m_layered).read(inputs.viewBlock).read(fields.background).read(inputs.normals).read(scanned.grids).read(scanned.cells)
-            .read(scanned.table).write(result).read(fields.objects).read(objectCells).read(inputs.depth).constants(scanned.constants).dispatch(visible.x, visible.y);
+        graph.pass("far_field.obscurance", m_layered)
+            .read(inputs.viewBlock)
+            .read(fields.background)
+            .read(inputs.normals)
+            .read(scanned.grids)
+            .read(scanned.cells)
+            .read(scanned.table)
+            .write(result)
+            .read(fields.objects)
+            .read(objectCells)
+            .read(inputs.depth)
+            .constants(scanned.constants)
+            .dispatch(visible.x, visible.y);
         return result;
     }
 
@@ -231,11 +284,24 @@ private:
         near.constants.side = far.constants.side = side;
         const graph::ImageId nearField = obscurance(graph, inputs, near, "far_field.near field");
         const graph::ImageId surfaces = graph.image("far_field.surfaces", {VK_FORMAT_R32G32_UINT, visible.x, visible.y});
-        graph.pass("far_field.box average", m_boxAverage).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(surfaces)
-            .constants(side).dispatch(visible.x, visible.y);
+        graph.pass("far_field.box average", m_boxAverage)
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(inputs.normals)
+            .write(surfaces)
+            .constants(side)
+            .dispatch(visible.x, visible.y);
         const graph::ImageId shares = graph.image("far_field.parts", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
-        graph.pass("far_field.obscurance", m_interleaved[uint32_t(far.averaging)]).read(inputs.viewBlock).read(inputs.depth).read(surfaces).read(far.grids)
-            .read(far.cells).read(far.table).write(shares).constants(far.constants).dispatch(visible.x, visible.y);
+        graph.pass("far_field.obscurance", m_interleaved[uint32_t(far.averaging)])
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(surfaces)
+            .read(far.grids)
+            .read(far.cells)
+            .read(far.table)
+            .write(shares)
+            .constants(far.constants)
+            .dispatch(visible.x, visible.y);
         const graph::ImageId gathered = m_gather.add(graph, inputs, shares, side, nearField);
         if (threshold <= 0.0f) return gathered;
         const graph::ImageId blurred = graph.image("far_field.blurred", graph.desc(gathered));

@@ -44,7 +44,8 @@ FarFieldGrid gridOf(shared::uvec2 size, uint32_t directions, uint32_t interval, 
 
 }  // namespace
 
-FarFieldGrid farFieldGrid(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging, uint32_t mostRows) {
+FarFieldGrid farFieldGrid(
+    shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging, uint32_t mostRows) {
     for (;; ++interval) {
         FarFieldGrid grid = gridOf(size, directions, interval, lineStep, averaging);
         if (grid.bytes <= kMostBytes && grid.rows <= mostRows) return grid;

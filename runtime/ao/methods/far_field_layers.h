@@ -12,12 +12,12 @@ public:
     // Needs inputs.layers.thickness. `sheet`: thickness of open surfaces that have another surface behind them, metres.
     struct Fields {
         graph::ImageId background;  // R32F, view.size: linear depth
-        graph::ImageId objects;      // RG32UI, view.size; layout: shaders/ao/far_field/fields.comp
+        graph::ImageId objects;     // RG32UI, view.size; layout: shaders/ao/far_field/fields.comp
     };
     Fields split(graph::Graph& graph, const Inputs& inputs, float sheet);
     // Means of objects over intervals, all levels: RG32UI in the grid's order; if directions are paired, of their first half only.
     graph::ImageId scan(graph::Graph& graph, const Inputs& inputs, graph::ImageId objects, graph::BufferId grids, const FarFieldGrid& grid,
-                        const shared::FarFieldConstants& constants);
+        const shared::FarFieldConstants& constants);
 
 private:
     gpu::Program m_split[2], m_scan, m_pyramid;  // m_split: by layer count - 1

@@ -20,11 +20,11 @@
 #include <cmath>
 #include <iterator>
 
+#include "ao/denoise.h"
 #include "ao/depth_mips.h"
 #include "ao/edge_blur.h"
-#include "ao/denoise.h"
-#include "ao/slices.h"
 #include "ao/layer_pass.h"
+#include "ao/slices.h"
 
 namespace obscura::ao {
 namespace {
@@ -43,11 +43,11 @@ const Parameter kParameters[] = {
     kSlices,
     kSliceSteps,
     {"radius_scale", "", 0.3f, 3, 1.457f, false, {},
-     "Factor on the falloff's length, which makes up for occluders that samples miss. Too low: too bright; too high: too dark far from "
-     "creases."},
+        "Factor on the falloff's length, which makes up for occluders that samples miss. Too low: too bright; too high: too dark far from "
+        "creases."},
     {"weighting", "", 0, 1, 0, true, {kWeightings, 2},
-     "How distance reduces a sample: its horizon is mixed towards the hemisphere's edge, as published, or the arc that it newly covers "
-     "is weighted by the falloff."},
+        "How distance reduces a sample: its horizon is mixed towards the hemisphere's edge, as published, or the arc that it newly covers "
+        "is weighted by the falloff."},
     kSliceAxis,
     kSliceMipOffset,
     {"power", "", 0.5f, 5, 2.2f, false, {}, "Exponent on visibility, fitted by XeGTAO to ray tracing. Higher is darker."},
@@ -65,22 +65,21 @@ const Preset kPresets[] = {
     {"ultra", "9 slices x 3 steps: XeGTAO's ultra.", {kSlicesUltra, std::size(kSlicesUltra)}},
     {"tuned", "1 slice x 9 steps, arcs weighted one by one, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
-const MethodInfo kInfo{"gtao",
-                       "Ground-truth ambient occlusion",
-                       "Jimenez, Wu, Pesce, Jarabo: Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016; XeGTAO, Strugar, McCalla 2021",
-                       "Two horizons in each slice through the view ray, integrated in closed form.",
-                       kDepth | kNormals,
-                       {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)},
-                       true};
+const MethodInfo kInfo{"gtao", "Ground-truth ambient occlusion",
+    "Jimenez, Wu, Pesce, Jarabo: Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016; XeGTAO, Strugar, McCalla 2021",
+    "Two horizons in each slice through the view ray, integrated in closed form.", kDepth | kNormals, {kParameters, std::size(kParameters)},
+    {kPresets, std::size(kPresets)}, true};
 
 class Gtao final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Gtao>();
         for (uint32_t arcs = 0; arcs < 2; ++arcs) {
-            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp", {{0, arcs}}, result->m_horizons[arcs]) != gpu::Status::ok) return nullptr;
-            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons_layers.comp", {{0, arcs}}, result->m_layered[arcs]) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp", {{0, arcs}}, result->m_horizons[arcs]) != gpu::Status::ok)
+                return nullptr;
+            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons_layers.comp", {{0, arcs}}, result->m_layered[arcs]) !=
+                gpu::Status::ok)
+                return nullptr;
         }
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
         if (EdgeBlur::create(device, shaders, result->m_edgeBlur) != Status::ok) return nullptr;
@@ -92,9 +91,10 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const Constants constants{stretched(inputs.falloff, values["radius_scale"]), values.count("slices"), values.count("steps"),
-                                  values["mip_offset"], values["power"], values["floor"], values.count("axis")};
+            values["mip_offset"], values["power"], values["floor"], values.count("axis")};
         const graph::ImageId layers = inputs.layers.thickness ? m_layerPass.add(graph, inputs, values["sheet"]) : graph::ImageId{};
-        const graph::ImageId depths = layers ? inputs.depth : m_depths.add(graph, inputs, "gtao.depths", kNearRange * constants.falloff.reach);
+        const graph::ImageId depths =
+            layers ? inputs.depth : m_depths.add(graph, inputs, "gtao.depths", kNearRange * constants.falloff.reach);
         const graph::ImageId noisy = graph.image("gtao.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});
         graph::Pass& pass = graph.pass("gtao.horizons", (layers ? m_layered : m_horizons)[values.count("weighting")]);
         pass.read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy);

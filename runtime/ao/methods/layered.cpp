@@ -33,11 +33,11 @@ struct Constants {  // segments.comp
     shared::FalloffBlock falloff;
     uint32_t slices, steps;
     float maxPixels;
-    uint32_t side;      // of the interleaving tile, px
-    uint32_t map;       // image pixels per map pixel, each way
-    float assumed;      // thickness without depth layers, metres
+    uint32_t side;  // of the interleaving tile, px
+    uint32_t map;   // image pixels per map pixel, each way
+    float assumed;  // thickness without depth layers, metres
 };
-struct Window {         // gather.glsl
+struct Window {  // gather.glsl
     uint32_t map, before, taps;
     float covers;
 };
@@ -45,19 +45,19 @@ struct Window {         // gather.glsl
 const Parameter kParameters[] = {
     {"slices", "", 1, 32, 16, true, {}, "Slices of the hemisphere around the view ray. Cost grows with slices x steps. Too few: noise."},
     {"steps", "", 1, 64, 9, true, {},
-     "Samples to each side of a slice, each for a stratum out to the falloff's reach. Cost grows with slices x steps. Too few: thin "
-     "objects are missed. Raise steps before slices."},
+        "Samples to each side of a slice, each for a stratum out to the falloff's reach. Cost grows with slices x steps. Too few: thin "
+        "objects are missed. Raise steps before slices."},
     {kDepthLayers.id, "", 0, 3, 1, true, {kLayerModes, std::size(kLayerModes)}, kDepthLayers.sentence},
     kSheet,
     {"thickness", "m", 0.01f, 1000, 0.25f, false, {},
-     "Assumed thickness of everything where no depth layers are read. Too low: light leaks through solid objects; too high: dark halos "
-     "around foreground objects."},
+        "Assumed thickness of everything where no depth layers are read. Too low: light leaks through solid objects; too high: dark halos "
+        "around foreground objects."},
     {"max_pixels", "px", 8, 4096, 4096, false, {},
-     "Longest reach on the screen. Shorter is faster close to surfaces, where samples are otherwise far apart in memory. Too short: wide "
-     "occlusion is lost close up."},
+        "Longest reach on the screen. Shorter is faster close to surfaces, where samples are otherwise far apart in memory. Too short: "
+        "wide occlusion is lost close up."},
     {"map", "px", 1, 3, 1, true, {},
-     "Image pixels per pixel of the map, each way. 2 costs a quarter of 1 and gathers over twice the width. Too high: small objects lose "
-     "their occlusion."},
+        "Image pixels per pixel of the map, each way. 2 costs a quarter of 1 and gathers over twice the width. Too high: small objects "
+        "lose their occlusion."},
     {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
 const Setting kFast[] = {{"steps", 11}, {"depth_layers", float(LayerMode::none)}, {"map", 2}};
@@ -72,49 +72,67 @@ const Preset kPresets[] = {
     {"balanced", "16 samples per pixel, no depth layers.", {kBalanced, std::size(kBalanced)}},
     {"quality", "54 samples per pixel, three slices, thickness and a second surface.", {kQuality, std::size(kQuality)}},
     {"reference", "1024 samples per pixel, not interleaved: the limit of what the depth layers can give.",
-     {kReference, std::size(kReference)}},
+        {kReference, std::size(kReference)}},
 };
-const MethodInfo kInfo{"layered",
-                       "Layered obscurance",
-                       "",
-                       "Reads depth layers behind the visible surface; samples cover strata of the hemisphere in a bitmask.",
-                       kDepth | kNormals,
-                       {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)}};
+const MethodInfo kInfo{"layered", "Layered obscurance", "",
+    "Reads depth layers behind the visible surface; samples cover strata of the hemisphere in a bitmask.", kDepth | kNormals,
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
 
 class Layered final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Layered>();
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
-        const struct { const char* name; gpu::Program* program; } programs[] = {
-            {"segments_none", &result->m_segments[0]}, {"segments", &result->m_segments[1]}, {"segments_two", &result->m_segments[2]},
-            {"gather", &result->m_gather[0]}, {"gather_map", &result->m_gather[1]}};
+        const struct {
+            const char* name;
+            gpu::Program* program;
+        } programs[] = {{"segments_none", &result->m_segments[0]}, {"segments", &result->m_segments[1]},
+            {"segments_two", &result->m_segments[2]}, {"gather", &result->m_gather[0]}, {"gather_map", &result->m_gather[1]}};
         for (const auto& [name, program] : programs)
-            if (gpu::Program::compute(device, shaders, std::string("ao/layered/") + name + ".comp", {}, *program) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, std::string("ao/layered/") + name + ".comp", {}, *program) != gpu::Status::ok)
+                return nullptr;
         return result;
     }
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const uint32_t layers = !inputs.layers.thickness ? 0 : !inputs.layers.second ? 1 : 2;
-        const graph::ImageId texels = layers == 0 ? inputs.depth : m_layerPass.add(graph, inputs, values["sheet"], layers == 2 ? LayerPass::Layers::two : LayerPass::Layers::one);
+        const graph::ImageId texels =
+            layers == 0 ? inputs.depth
+                        : m_layerPass.add(graph, inputs, values["sheet"], layers == 2 ? LayerPass::Layers::two : LayerPass::Layers::one);
         const uint32_t side = tileSide(values), slices = sharedOut(values.count("slices"), side) / (side * side);
         const uint32_t map = values.count("map"), width = (visible.x + map - 1) / map, height = (visible.y + map - 1) / map;
         const Constants constants{inputs.falloff, slices, values.count("steps"), values["max_pixels"], side, map, values["thickness"]};
         graph::ImageId shares = graph.image("layered.parts", {VK_FORMAT_R32G32_UINT, width, height});
         const graph::ImageId visibility = graph.image("layered.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("layered.segments", m_segments[layers]).read(inputs.viewBlock).read(inputs.normals).read(texels).write(shares).constants(constants)
+        graph.pass("layered.segments", m_segments[layers])
+            .read(inputs.viewBlock)
+            .read(inputs.normals)
+            .read(texels)
+            .write(shares)
+            .constants(constants)
             .dispatch(width, height);
         const Window tile{map, side / 2, side / 2 * 2 + 1, 0.5f * float(side) + 0.5f}, four{map, 0, 2, 1.0f};
         if (map > 1) {
             const graph::ImageId gathered = graph.image("layered.gathered", {VK_FORMAT_R32G32_UINT, width, height});
-            graph.pass("layered.gather", m_gather[1]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(shares).write(gathered).constants(tile)
+            graph.pass("layered.gather", m_gather[1])
+                .read(inputs.viewBlock)
+                .read(inputs.depth)
+                .read(inputs.normals)
+                .read(shares)
+                .write(gathered)
+                .constants(tile)
                 .dispatch(width, height);
             shares = gathered;
         }
-        graph.pass(map > 1 ? "layered.upsample" : "layered.gather", m_gather[0]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(shares)
-            .write(visibility).constants(map > 1 ? four : tile).dispatch(visible.x, visible.y);
+        graph.pass(map > 1 ? "layered.upsample" : "layered.gather", m_gather[0])
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(inputs.normals)
+            .read(shares)
+            .write(visibility)
+            .constants(map > 1 ? four : tile)
+            .dispatch(visible.x, visible.y);
         return visibility;
     }
 

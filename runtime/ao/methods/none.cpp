@@ -5,7 +5,8 @@ namespace obscura::ao {
 namespace {
 
 const Preset kPresets[] = {{"default", "Nothing is computed.", {}}};
-const MethodInfo kInfo{"none", "No obscurance", "", "Ambient light reaches every point: the image without obscurance.", 0, {}, {kPresets, 1}};
+const MethodInfo kInfo{
+    "none", "No obscurance", "", "Ambient light reaches every point: the image without obscurance.", 0, {}, {kPresets, 1}};
 
 class None final : public Method {
 public:

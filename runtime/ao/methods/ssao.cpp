@@ -14,8 +14,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "ao/mean_reach.h"
 #include "ao/denoise.h"
+#include "ao/mean_reach.h"
 
 namespace obscura::ao {
 namespace {
@@ -28,16 +28,16 @@ const char* const kBlurs[] = {"none", "box", "surface"};
 const Parameter kParameters[] = {
     {"samples", "", 4, 256, 64, true, {}, "Points in the hemisphere. Cost grows with them. Too few: noise."},
     {"kernel", "", 0, 1, 0, true, {kKernels, 2},
-     "Distribution of the points: as published, or cosine-weighted with distances that follow the falloff. As published, occluders near "
-     "the horizon count too much."},
+        "Distribution of the points: as published, or cosine-weighted with distances that follow the falloff. As published, occluders near "
+        "the horizon count too much."},
     {"radius_scale", "", 0.1f, 4, 1, false, {},
-     "Factor on the distance of all points. Too low: only contact shadows are left; too high: small creases are missed."},
+        "Factor on the distance of all points. Too low: only contact shadows are left; too high: small creases are missed."},
     {"bias", "m", 0, 100, 0.025f, false, {},
-     "How much nearer the depth buffer must be to block a point. Too low: facets of curved meshes darken; too high: contact shadows are "
-     "lost."},
+        "How much nearer the depth buffer must be to block a point. Too low: facets of curved meshes darken; too high: contact shadows are "
+        "lost."},
     {"denoise", "", 0, 2, 1, true, {kBlurs, 3},
-     "Blur that removes the 4x4 noise pattern: a mean of 4x4 pixels, as published, or 5x5 weighted by depth and normal. None: the "
-     "pattern shows; the mean blurs across edges."},
+        "Blur that removes the 4x4 noise pattern: a mean of 4x4 pixels, as published, or 5x5 weighted by depth and normal. None: the "
+        "pattern shows; the mean blurs across edges."},
 };
 const Setting kFast[] = {{"samples", 16}};
 const Setting kTuned[] = {{"samples", 29}, {"kernel", 1}, {"radius_scale", 0.7f}, {"bias", 0.00262f}, {"denoise", kSurface}};
@@ -46,14 +46,10 @@ const Preset kPresets[] = {
     {"fast", "16 points, distributed as published.", {kFast, std::size(kFast)}},
     {"tuned", "29 cosine-weighted points whose distances follow the falloff, blurred along the surface.", {kTuned, std::size(kTuned)}},
 };
-const MethodInfo kInfo{"ssao",
-                       "Screen-space ambient occlusion",
-                       "Mittring: Finding Next Gen, CryEngine 2, SIGGRAPH 2007 courses; hemisphere form: de Vries, LearnOpenGL",
-                       "Tests points in the hemisphere against the depth buffer.",
-                       kDepth | kNormals,
-                       {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)},
-                       true};
+const MethodInfo kInfo{"ssao", "Screen-space ambient occlusion",
+    "Mittring: Finding Next Gen, CryEngine 2, SIGGRAPH 2007 courses; hemisphere form: de Vries, LearnOpenGL",
+    "Tests points in the hemisphere against the depth buffer.", kDepth | kNormals, {kParameters, std::size(kParameters)},
+    {kPresets, std::size(kPresets)}, true};
 
 // Distance, metres, beyond which the falloff is below u.
 float distanceOf(const Falloff& falloff, float u) {
@@ -89,12 +85,22 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const std::vector<shared::vec4> kernel = kernelOf(inputs.falloffDesc, values.count("samples"), values.count("kernel") == 0, values["radius_scale"]);
-        const struct { uint32_t samples; float radius, bias; } constants{values.count("samples"), radiusOf(inputs, values), values["bias"]};
+        const std::vector<shared::vec4> kernel =
+            kernelOf(inputs.falloffDesc, values.count("samples"), values.count("kernel") == 0, values["radius_scale"]);
+        const struct {
+            uint32_t samples;
+            float radius, bias;
+        } constants{values.count("samples"), radiusOf(inputs, values), values["bias"]};
         const graph::BufferId points = graph.upload("ssao.kernel", kernel.data(), kernel.size() * sizeof(kernel[0]));
         const graph::ImageId visibility = graph.image("ssao.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("ssao.points", m_points).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(points).write(visibility)
-            .constants(constants).dispatch(visible.x, visible.y);
+        graph.pass("ssao.points", m_points)
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(inputs.normals)
+            .read(points)
+            .write(visibility)
+            .constants(constants)
+            .dispatch(visible.x, visible.y);
         if (values.count("denoise") == kSurface) return m_denoise.add(graph, inputs, visibility, "ssao.blur");
         if (values.count("denoise") == kNone) return visibility;
         const graph::ImageId blurred = graph.image("ssao.blur", graph.desc(visibility));

@@ -18,8 +18,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "ao/methods/statistical_tables.h"
 #include "ao/denoise.h"
+#include "ao/methods/statistical_tables.h"
 
 namespace obscura::ao {
 namespace {
@@ -36,34 +36,37 @@ const char* const kSizes[] = {"full", "half", "quarter"};
 
 const Parameter kParameters[] = {
     {"layers", "", 0, 5, 2, true, {kLayerings, 6},
-     "How surfaces are separated by depth: adaptively, at local means, or in uniform slices of the whole depth range, which are slow and "
-     "for comparison only. More layers cost more tables; too few: dark halos around foreground objects."},
+        "How surfaces are separated by depth: adaptively, at local means, or in uniform slices of the whole depth range, which are slow "
+        "and for comparison only. More layers cost more tables; too few: dark halos around foreground objects."},
     {"quadrants", "", 0, 1, 1, true, {},
-     "1: averages each quarter of the window alone, so that a surface that falls away on one side does not cancel occluders on the "
-     "other. Costs more table reads. 0: creases beside edges are too bright."},
+        "1: averages each quarter of the window alone, so that a surface that falls away on one side does not cancel occluders on the "
+        "other. Costs more table reads. 0: creases beside edges are too bright."},
     {"tables", "", 0, 2, 1, true, {kSizes, 3},
-     "Size of the tables relative to the image. Memory and most of the time grow with its square. Too small: contact shadows blur."},
+        "Size of the tables relative to the image. Memory and most of the time grow with its square. Too small: contact shadows blur."},
     {"radius", "R", 0.05f, 4, 0.78f, false, {},
-     "Half width of the box, in reaches of the falloff. Too small: wide occlusion is lost; too large: creases blur."},
+        "Half width of the box, in reaches of the falloff. Too small: wide occlusion is lost; too large: creases blur."},
     {"height", "R", 0.05f, 4, 0.92f, false, {},
-     "Height of the box, in reaches of the falloff. Too low: tall occluders stop counting; too high: low ones count too little."},
+        "Height of the box, in reaches of the falloff. Too low: tall occluders stop counting; too high: low ones count too little."},
     {"slope", "", 0.1f, 16, 1.5f, false, {},
-     "How fast occluders that are higher than the box stop counting: they are gone at 1 + 1/slope box heights. Too low: dark halos; too "
-     "high: hard edges."},
+        "How fast occluders that are higher than the box stop counting: they are gone at 1 + 1/slope box heights. Too low: dark halos; too "
+        "high: hard edges."},
     {"gain", "", 0.1f, 4, 1.17f, false, {},
-     "Factor on obscurance, because the filled part of a box is smaller than the blocked part of the sky. Too low: too bright; too high: "
-     "creases turn black."},
+        "Factor on obscurance, because the filled part of a box is smaller than the blocked part of the sky. Too low: too bright; too "
+        "high: creases turn black."},
     {"largest", "", 0.01f, 0.5f, 0.22f, false, {},
-     "Largest half width on the screen, in image heights. It bounds the integer sums. Too high: they lose precision; too low: wide "
-     "occlusion is lost close up."},
+        "Largest half width on the screen, in image heights. It bounds the integer sums. Too high: they lose precision; too low: wide "
+        "occlusion is lost close up."},
     {"estimator", "", 0, 2, 0, true, {kEstimators, 3},
-     "Summed-area tables, or for comparison samples in the same box: points, or lines along the normal with a 5x5 blur."},
+        "Summed-area tables, or for comparison samples in the same box: points, or lines along the normal with a 5x5 blur."},
     {"samples", "", 1, 1024, 256, true, {},
-     "Points or lines per pixel for those estimators. Cost grows with them. Too few: noise. Tables ignore it."},
+        "Points or lines per pixel for those estimators. Cost grows with them. Too few: noise. Tables ignore it."},
 };
-const Setting kPaper[] = {{"quadrants", 0}, {"tables", 0}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
-const Setting kPaperHalf[] = {{"quadrants", 0}, {"tables", 1}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
-const Setting kPaperQuarter[] = {{"quadrants", 0}, {"tables", 2}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
+const Setting kPaper[] = {
+    {"quadrants", 0}, {"tables", 0}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
+const Setting kPaperHalf[] = {
+    {"quadrants", 0}, {"tables", 1}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
+const Setting kPaperQuarter[] = {
+    {"quadrants", 0}, {"tables", 2}, {"radius", 0.75f}, {"height", 1.5f}, {"slope", 4}, {"gain", 1.4f}, {"largest", 0.25f}};
 const Setting kQuality[] = {{"tables", 0}};
 const Preset kPresets[] = {
     {"default", "4 adaptive layers, four quadrants, tables of half size.", {}},
@@ -72,17 +75,25 @@ const Preset kPresets[] = {
     {"paper_quarter", "Preset paper with tables of quarter size.", {kPaperQuarter, std::size(kPaperQuarter)}},
     {"quality", "4 adaptive layers, four quadrants, tables of full size.", {kQuality, std::size(kQuality)}},
 };
-const MethodInfo kInfo{"statistical",
-                       "Statistical volumetric obscurance",
-                       "Hendrickx, Scandolo, Eisemann, Eisemann: Adaptively Layered Statistical Volumetric Obscurance, 2015",
-                       "Mean height of the surface around each pixel, for each depth layer, from summed-area tables. No samples, no noise.",
-                       kDepth | kNormals,
-                       {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)}};
+const MethodInfo kInfo{"statistical", "Statistical volumetric obscurance",
+    "Hendrickx, Scandolo, Eisemann, Eisemann: Adaptively Layered Statistical Volumetric Obscurance, 2015",
+    "Mean height of the surface around each pixel, for each depth layer, from summed-area tables. No samples, no noise.", kDepth | kNormals,
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
 
-struct EvaluateConstants { Box box; uvec2 size; float slope, gain; };
-struct UniformConstants { EvaluateConstants evaluate; uint32_t isFirst, isLast; };
-struct SampleConstants { Box box; float slope, gain; uint32_t samples, lines; };
+struct EvaluateConstants {
+    Box box;
+    uvec2 size;
+    float slope, gain;
+};
+struct UniformConstants {
+    EvaluateConstants evaluate;
+    uint32_t isFirst, isLast;
+};
+struct SampleConstants {
+    Box box;
+    float slope, gain;
+    uint32_t samples, lines;
+};
 
 // The reach of the quadratic falloff with the same integral over distance.
 float quadraticReach(const Falloff& falloff) {
@@ -97,7 +108,8 @@ class Statistical final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<Statistical>();
-        bool created = StatisticalTables::create(device, shaders, result->m_tables) == Status::ok && Denoise::create(device, shaders, result->m_denoise) == Status::ok;
+        bool created = StatisticalTables::create(device, shaders, result->m_tables) == Status::ok &&
+                       Denoise::create(device, shaders, result->m_denoise) == Status::ok;
         const auto make = [&](const char* name, std::initializer_list<gpu::Constant> constants, gpu::Program& program) {
             created = created && gpu::Program::compute(device, shaders, name, constants, program) == gpu::Status::ok;
         };
@@ -114,12 +126,18 @@ public:
         const auto& view = inputs.view;
         const float R = quadraticReach(inputs.falloffDesc);
         const uint32_t layering = values.count("layers"), estimator = values.count("estimator");
-        Box box{values["radius"] * R, values["height"] * R, std::max(values["largest"] * float(view.visible.y), 1.0f), 1u << values.count("tables")};
+        Box box{values["radius"] * R, values["height"] * R, std::max(values["largest"] * float(view.visible.y), 1.0f),
+            1u << values.count("tables")};
         const graph::ImageId visibility = graph.image("statistical.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
         if (estimator != kTables) {
             const SampleConstants constants{box, values["slope"], values["gain"], values.count("samples"), estimator == kLines ? 1u : 0u};
-            graph.pass("statistical.samples", m_samples).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility)
-                .constants(constants).dispatch(view.visible.x, view.visible.y);
+            graph.pass("statistical.samples", m_samples)
+                .read(inputs.viewBlock)
+                .read(inputs.depth)
+                .read(inputs.normals)
+                .write(visibility)
+                .constants(constants)
+                .dispatch(view.visible.x, view.visible.y);
             return estimator == kLines ? m_denoise.add(graph, inputs, visibility, "statistical.blur") : visibility;
         }
 
@@ -131,8 +149,18 @@ public:
             addUniform(graph, inputs, constants, t, layering == kFirstUniform ? 16 : 64, quadrants, visibility);
             return visibility;
         }
-        graph.pass("statistical.evaluate", m_evaluate[quadrants][layering]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(t.extent)
-            .read(t.root).read(t.levels[0]).read(t.levels[1]).read(t.levels[2]).write(visibility).constants(constants).dispatch(view.visible.x, view.visible.y);
+        graph.pass("statistical.evaluate", m_evaluate[quadrants][layering])
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(inputs.normals)
+            .read(t.extent)
+            .read(t.root)
+            .read(t.levels[0])
+            .read(t.levels[1])
+            .read(t.levels[2])
+            .write(visibility)
+            .constants(constants)
+            .dispatch(view.visible.x, view.visible.y);
         return visibility;
     }
 
@@ -140,16 +168,25 @@ public:
     Blocking blocking(const Inputs&, const Values&) const override { return {}; }
 
 private:
-    void addUniform(graph::Graph& graph, const Inputs& inputs, const EvaluateConstants& evaluate, const Tables& t, uint32_t layers, uint32_t quadrants,
-                    graph::ImageId visibility) {
+    void addUniform(graph::Graph& graph, const Inputs& inputs, const EvaluateConstants& evaluate, const Tables& t, uint32_t layers,
+        uint32_t quadrants, graph::ImageId visibility) {
         const auto& visible = inputs.view.visible;
         m_tables.addUniform(graph, inputs, t, layers);
         const graph::BufferId pair = graph.buffer("statistical.pair", SummedArea::bytes(t.size, 2));
         const graph::BufferId blocked = graph.buffer("statistical.blocked", uint64_t(visible.x) * visible.y * 16);
         for (uint32_t k = 0; k < layers; k += 2) {
             m_tables.addPair(graph, t, k, pair);
-            graph.pass("statistical.uniform", m_uniform[quadrants]).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(t.extent).read(t.root)
-                .read(pair).write(blocked).write(visibility).constants(UniformConstants{evaluate, k == 0, k + 2 == layers}).dispatch(visible.x, visible.y);
+            graph.pass("statistical.uniform", m_uniform[quadrants])
+                .read(inputs.viewBlock)
+                .read(inputs.depth)
+                .read(inputs.normals)
+                .read(t.extent)
+                .read(t.root)
+                .read(pair)
+                .write(blocked)
+                .write(visibility)
+                .constants(UniformConstants{evaluate, k == 0, k + 2 == layers})
+                .dispatch(visible.x, visible.y);
         }
     }
 

@@ -10,12 +10,12 @@ namespace obscura::ao {
 class StatisticalTables {
 public:
     struct Tables {
-        shared::Box box;           // as passed to add(), except that texels may be larger
-        shared::uvec2 size;        // texels
-        graph::BufferId extent;    // Extent of fixed_point.h
-        graph::BufferId texels;    // uvec4: sums of x, y, z in units, and count
-        graph::BufferId codes;     // uint a texel: bit k is set if it is in the nearer layer at level k + 1; or its uniform layer's number
-        graph::BufferId root;      // table of all texels
+        shared::Box box;         // as passed to add(), except that texels may be larger
+        shared::uvec2 size;      // texels
+        graph::BufferId extent;  // Extent of fixed_point.h
+        graph::BufferId texels;  // uvec4: sums of x, y, z in units, and count
+        graph::BufferId codes;   // uint a texel: bit k is set if it is in the nearer layer at level k + 1; or its uniform layer's number
+        graph::BufferId root;    // table of all texels
         // Tables of the nearer layers, by level: of 1 (code & 1 == 1), 2 (11, 10 of the lowest bits, last level first) and 4
         // (111, 101, 110, 100) interleaved layers. Levels that were not requested are `root`.
         graph::BufferId levels[3];
@@ -31,11 +31,12 @@ public:
     void addPair(graph::Graph& graph, const Tables& tables, uint32_t k, graph::BufferId pair);
 
 private:
-    void addCodes(graph::Graph& graph, const Inputs& inputs, const Tables& tables, uint32_t level, uint32_t uniformLayers, const std::string& name);
+    void addCodes(
+        graph::Graph& graph, const Inputs& inputs, const Tables& tables, uint32_t level, uint32_t uniformLayers, const std::string& name);
     SummedArea m_sums;
     gpu::Program m_extentBlocks, m_extent, m_texels;
-    gpu::Program m_layers[4];     // by level; 0: uniform layers
-    uint64_t m_largest = 0;       // largest storage buffer that the device can bind, bytes
+    gpu::Program m_layers[4];  // by level; 0: uniform layers
+    uint64_t m_largest = 0;    // largest storage buffer that the device can bind, bytes
 };
 
 }  // namespace obscura::ao

@@ -13,9 +13,9 @@
 // included; writes visibility of the visible part. Passes: depths, sectors, denoise twice.
 #include <iterator>
 
+#include "ao/denoise.h"
 #include "ao/depth_mips.h"
 #include "ao/edge_blur.h"
-#include "ao/denoise.h"
 #include "ao/slices.h"
 
 namespace obscura::ao {
@@ -33,16 +33,17 @@ const Parameter kParameters[] = {
     kSlices,
     kSliceSteps,
     {"thickness", "m", 0.001f, 1000, 0.25f, false, {},
-     "Assumed thickness of everything. Too low: light leaks through solid objects; too high: dark halos around foreground objects."},
+        "Assumed thickness of everything. Too low: light leaks through solid objects; too high: dark halos around foreground objects."},
     {"sectors", "", 0, 1, 0, true, {kSectors, 2},
-     "What the 32 sectors of a slice divide evenly: its angle, as published, or its cosine-weighted solid angle. Equal angles count "
-     "occluders near the horizon too much."},
+        "What the 32 sectors of a slice divide evenly: its angle, as published, or its cosine-weighted solid angle. Equal angles count "
+        "occluders near the horizon too much."},
     kSliceAxis,
     kSliceMipOffset,
     kSliceDenoise,
 };
 const Setting kFilament[] = {{"slices", 4}, {"thickness", 0.5f}};
-const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"thickness", 0.5f}, {"sectors", 1}, {"axis", 1}, {"denoise", float(SliceBlur::surface)}};
+const Setting kTuned[] = {
+    {"slices", 1}, {"steps", 9}, {"thickness", 0.5f}, {"sectors", 1}, {"axis", 1}, {"denoise", float(SliceBlur::surface)}};
 const Preset kPresets[] = {
     {"default", "3 slices x 3 steps per side, surfaces 0.25 m thick: Bevy's high.", {}},
     {"low", "1 slice x 2 steps: Bevy's low.", {kSlicesLow, std::size(kSlicesLow)}},
@@ -51,21 +52,19 @@ const Preset kPresets[] = {
     {"filament", "4 slices x 3 steps, surfaces 0.5 m thick, as in Filament.", {kFilament, std::size(kFilament)}},
     {"tuned", "1 slice x 9 steps, surfaces 0.5 m thick, sectors of equal weight, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
-const MethodInfo kInfo{"visibility_bitmask",
-                       "Visibility bitmask",
-                       "Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023",
-                       "A bitmask of 32 sectors for each slice through the view ray; samples of constant thickness cover sectors.",
-                       kDepth | kNormals,
-                       {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)},
-                       true};
+const MethodInfo kInfo{"visibility_bitmask", "Visibility bitmask",
+    "Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023",
+    "A bitmask of 32 sectors for each slice through the view ray; samples of constant thickness cover sectors.", kDepth | kNormals,
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, true};
 
 class VisibilityBitmask final : public Method {
 public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
         auto result = std::make_unique<VisibilityBitmask>();
         for (uint32_t cosine = 0; cosine < 2; ++cosine)
-            if (gpu::Program::compute(device, shaders, "ao/visibility_bitmask/sectors.comp", {{0, cosine}}, result->m_sectors[cosine]) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, "ao/visibility_bitmask/sectors.comp", {{0, cosine}}, result->m_sectors[cosine]) !=
+                gpu::Status::ok)
+                return nullptr;
         if (DepthMips::create(device, shaders, DepthMips::Filter::farthest, result->m_depths) != Status::ok) return nullptr;
         if (EdgeBlur::create(device, shaders, result->m_edgeBlur) != Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
@@ -74,11 +73,17 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const Constants constants{inputs.falloff, values.count("slices"), values.count("steps"), values["thickness"], values["mip_offset"], values.count("axis")};
+        const Constants constants{
+            inputs.falloff, values.count("slices"), values.count("steps"), values["thickness"], values["mip_offset"], values.count("axis")};
         const graph::ImageId depths = m_depths.add(graph, inputs, "visibility_bitmask.depths", inputs.falloff.reach);
         const graph::ImageId noisy = graph.image("visibility_bitmask.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});
-        graph.pass("visibility_bitmask.sectors", m_sectors[values.count("sectors")]).read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy)
-            .constants(constants).dispatch(visible.x, visible.y);
+        graph.pass("visibility_bitmask.sectors", m_sectors[values.count("sectors")])
+            .read(inputs.viewBlock)
+            .read(inputs.normals)
+            .read(depths)
+            .write(noisy)
+            .constants(constants)
+            .dispatch(visible.x, visible.y);
 
         const auto blur = SliceBlur(values.count("denoise"));
         const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == SliceBlur::edges, "visibility_bitmask.denoise");

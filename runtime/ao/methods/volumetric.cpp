@@ -13,8 +13,8 @@
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: lines, blur.
 #include <iterator>
 
-#include "ao/mean_reach.h"
 #include "ao/denoise.h"
+#include "ao/mean_reach.h"
 
 namespace obscura::ao {
 namespace {
@@ -26,17 +26,17 @@ const char* const kSolids[] = {"ball", "half ball", "touching ball"};
 const Parameter kParameters[] = {
     {"lines", "", 1, 64, 9, true, {}, "Lines of sight through the ball. Cost grows with them. Too few: noise."},
     {"solid", "", 0, 2, kHalf, true, {kSolids, 3},
-     "Volume that is measured: the ball around the pixel, which needs no normal, its half above the surface, or the ball that touches "
-     "the surface there. All cost the same."},
+        "Volume that is measured: the ball around the pixel, which needs no normal, its half above the surface, or the ball that touches "
+        "the surface there. All cost the same."},
     {"radius_scale", "", 0.1f, 4, 1, false, {},
-     "Factor on the ball's radius, which matches the falloff at 1. Too low: only contact shadows are left; too high: small creases are "
-     "missed."},
+        "Factor on the ball's radius, which matches the falloff at 1. Too low: only contact shadows are left; too high: small creases are "
+        "missed."},
     {"thickness", "m", 0.001f, 1e6f, 1000, false, {},
-     "Assumed thickness of everything; endless as published. Too low: light leaks through solid objects; too high: dark halos around "
-     "foreground objects."},
+        "Assumed thickness of everything; endless as published. Too low: light leaks through solid objects; too high: dark halos around "
+        "foreground objects."},
     {"denoise", "", 0, 1, 1, true, {},
-     "5x5 blur weighted by depth and normal; it removes the 4x4 noise pattern. Off: the pattern shows; on: details of a few pixels "
-     "soften."},
+        "5x5 blur weighted by depth and normal; it removes the 4x4 noise pattern. Off: the pattern shows; on: details of a few pixels "
+        "soften."},
 };
 const Setting kBallAlone[] = {{"solid", kBall}};
 const Setting kDense[] = {{"lines", 33}};
@@ -47,14 +47,9 @@ const Preset kPresets[] = {
     {"dense", "33 lines.", {kDense, std::size(kDense)}},
     {"tuned", "16 lines, a ball of 0.56 of the radius, surfaces 1.36 m thick.", {kTuned, std::size(kTuned)}},
 };
-const MethodInfo kInfo{"volumetric",
-                       "Volumetric obscurance",
-                       "Loos, Sloan: Volumetric Obscurance, I3D 2010",
-                       "Line samples of how much of a ball around the pixel lies behind the depth buffer.",
-                       kDepth | kNormals,
-                       {kParameters, std::size(kParameters)},
-                       {kPresets, std::size(kPresets)},
-                       true};
+const MethodInfo kInfo{"volumetric", "Volumetric obscurance", "Loos, Sloan: Volumetric Obscurance, I3D 2010",
+    "Line samples of how much of a ball around the pixel lies behind the depth buffer.", kDepth | kNormals,
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, true};
 
 class Volumetric final : public Method {
 public:
@@ -67,11 +62,19 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const struct { uint32_t lines; float radius, thickness; uint32_t solid; } constants{values.count("lines"), radiusOf(inputs, values), values["thickness"],
-                                                                                           values.count("solid")};
+        const struct {
+            uint32_t lines;
+            float radius, thickness;
+            uint32_t solid;
+        } constants{values.count("lines"), radiusOf(inputs, values), values["thickness"], values.count("solid")};
         const graph::ImageId visibility = graph.image("volumetric.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("volumetric.lines", m_lines).read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility)
-            .constants(constants).dispatch(visible.x, visible.y);
+        graph.pass("volumetric.lines", m_lines)
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
+            .read(inputs.normals)
+            .write(visibility)
+            .constants(constants)
+            .dispatch(visible.x, visible.y);
         return values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "volumetric.blur") : visibility;
     }
 

@@ -55,7 +55,8 @@ public:
         const auto from = m_files.find(includer);
         const fs::path beside = from == m_files.end() ? fs::path() : (from->second.parent_path() / wanted).lexically_normal();
         std::error_code ignored;
-        return include(!beside.empty() && fs::is_regular_file(beside, ignored) ? beside : (m_root / wanted).lexically_normal(), wanted, depth);
+        return include(
+            !beside.empty() && fs::is_regular_file(beside, ignored) ? beside : (m_root / wanted).lexically_normal(), wanted, depth);
     }
     IncludeResult* includeSystem(const char* wanted, const char*, size_t depth) override {
         const fs::path own = (m_root / wanted).lexically_normal();
@@ -104,7 +105,9 @@ std::string messages(const std::string& log, const std::string& shown) {
         if (isError) line.erase(0, 7);
         else if (line.starts_with("INTERNAL ERROR: ")) line.erase(0, 16);
         else continue;
-        if (line.empty() || line.find("compilation errors.") != std::string::npos || line.find("compilation terminated") != std::string::npos) continue;
+        if (line.empty() || line.find("compilation errors.") != std::string::npos ||
+            line.find("compilation terminated") != std::string::npos)
+            continue;
         // Messages about the whole shader (linking) carry no place.
         const size_t colon = line.find(':');
         const bool placed = colon != std::string::npos && colon + 1 < line.size() && line[colon + 1] >= '0' && line[colon + 1] <= '9';
@@ -125,10 +128,15 @@ bool compileShader(const fs::path& given, const fs::path& givenRoot, Shader& out
     const std::string shown = includer.display(file);
     dependencies.push_back(file);
 
-    struct Stage { const char* extension; EShLanguage language; VkShaderStageFlagBits stage; };
-    constexpr Stage kStages[] = {{".comp", EShLangCompute, VK_SHADER_STAGE_COMPUTE_BIT}, {".vert", EShLangVertex, VK_SHADER_STAGE_VERTEX_BIT},
-                                 {".frag", EShLangFragment, VK_SHADER_STAGE_FRAGMENT_BIT}};
-    const auto stage = std::find_if(std::begin(kStages), std::end(kStages), [&](const Stage& s) { return file.extension() == s.extension; });
+    struct Stage {
+        const char* extension;
+        EShLanguage language;
+        VkShaderStageFlagBits stage;
+    };
+    constexpr Stage kStages[] = {{".comp", EShLangCompute, VK_SHADER_STAGE_COMPUTE_BIT},
+        {".vert", EShLangVertex, VK_SHADER_STAGE_VERTEX_BIT}, {".frag", EShLangFragment, VK_SHADER_STAGE_FRAGMENT_BIT}};
+    const auto stage =
+        std::find_if(std::begin(kStages), std::end(kStages), [&](const Stage& s) { return file.extension() == s.extension; });
     if (stage == std::end(kStages)) {
         error = shown + ": a shader's name ends in .comp, .vert or .frag";
         return false;

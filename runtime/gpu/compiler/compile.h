@@ -10,7 +10,7 @@ namespace obscura::gpu {
 // below `root`; #include <x> below `root`, then where the system's GLSL headers are. Needs no #extension line; a file with #pragma once
 // counts once. `error`: one line a message, "shaders/ao/x.comp:12: message", paths from the root's own folder on. Any thread may call it.
 bool compileShader(const std::filesystem::path& file, const std::filesystem::path& root, Shader& out, std::string& error,
-                   std::vector<std::filesystem::path>& dependencies);
+    std::vector<std::filesystem::path>& dependencies);
 
 // Bindings, workgroup and push constants of `shader.spirv`, which must still carry its names.
 bool reflect(Shader& shader, std::string& error);

@@ -12,10 +12,14 @@ namespace {
 
 struct Context {
     spvc_context handle = nullptr;
-    ~Context() { if (handle) spvc_context_destroy(handle); }
+    ~Context() {
+        if (handle) spvc_context_destroy(handle);
+    }
 };
 
-struct Access { bool reads, writes; };
+struct Access {
+    bool reads, writes;
+};
 
 Access accessOf(spvc_compiler compiler, spvc_variable_id id, BindingKind kind) {
     if (kind == BindingKind::sampledImage || kind == BindingKind::uniformBuffer) return {true, false};
@@ -51,11 +55,13 @@ bool reflect(Shader& shader, std::string& error) {
         spvc_compiler_create_shader_resources(compiler, &resources) != SPVC_SUCCESS)
         return failed();
 
-    struct Kind { spvc_resource_type type; BindingKind kind; };
+    struct Kind {
+        spvc_resource_type type;
+        BindingKind kind;
+    };
     constexpr Kind kKinds[] = {{SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, BindingKind::sampledImage},
-                               {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, BindingKind::storageImage},
-                               {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, BindingKind::uniformBuffer},
-                               {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, BindingKind::storageBuffer}};
+        {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, BindingKind::storageImage}, {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, BindingKind::uniformBuffer},
+        {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, BindingKind::storageBuffer}};
     shader.bindings.clear();
     for (const Kind& kind : kKinds) {
         const spvc_reflected_resource* list = nullptr;
@@ -79,16 +85,17 @@ bool reflect(Shader& shader, std::string& error) {
             shader.bindings.push_back(std::move(binding));
         }
     }
-    for (spvc_resource_type type : {SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, SPVC_RESOURCE_TYPE_SUBPASS_INPUT}) {
+    for (spvc_resource_type type :
+        {SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, SPVC_RESOURCE_TYPE_SUBPASS_INPUT}) {
         const spvc_reflected_resource* list = nullptr;
         size_t count = 0;
         if (spvc_resources_get_resource_list_for_type(resources, type, &list, &count) != SPVC_SUCCESS || count == 0) continue;
-        error = fmt::format("'{}': images are sampled through combined samplers (sampler2D and its like) only", list[0].name ? list[0].name : "");
+        error = fmt::format(
+            "'{}': images are sampled through combined samplers (sampler2D and its like) only", list[0].name ? list[0].name : "");
         return false;
     }
-    std::sort(shader.bindings.begin(), shader.bindings.end(), [](const Binding& a, const Binding& b) {
-        return std::pair(a.set, a.binding) < std::pair(b.set, b.binding);
-    });
+    std::sort(shader.bindings.begin(), shader.bindings.end(),
+        [](const Binding& a, const Binding& b) { return std::pair(a.set, a.binding) < std::pair(b.set, b.binding); });
     for (size_t i = 1; i < shader.bindings.size(); ++i) {
         const Binding &a = shader.bindings[i - 1], &b = shader.bindings[i];
         if (a.set != b.set || a.binding != b.binding) continue;
@@ -98,8 +105,10 @@ bool reflect(Shader& shader, std::string& error) {
 
     const spvc_reflected_resource* push = nullptr;
     size_t pushCount = 0, pushBytes = 0;
-    if (spvc_resources_get_resource_list_for_type(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, &push, &pushCount) != SPVC_SUCCESS) return failed();
-    if (pushCount && spvc_compiler_get_declared_struct_size(compiler, spvc_compiler_get_type_handle(compiler, push[0].base_type_id), &pushBytes) != SPVC_SUCCESS)
+    if (spvc_resources_get_resource_list_for_type(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, &push, &pushCount) != SPVC_SUCCESS)
+        return failed();
+    if (pushCount && spvc_compiler_get_declared_struct_size(
+                         compiler, spvc_compiler_get_type_handle(compiler, push[0].base_type_id), &pushBytes) != SPVC_SUCCESS)
         return failed();
     shader.pushConstantBytes = uint32_t(pushBytes);
 

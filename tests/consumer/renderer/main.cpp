@@ -18,7 +18,12 @@ void expect(bool condition, const char* what, const char* method) {
 
 // Mean visibility of the sky, of the floor within 40 cm of the wall, and of the floor more than 1.5 m from wall and box.
 void look(const Renderer& renderer, const std::vector<uint8_t>& picture, const char* method) {
-    struct { double sum = 0.0; unsigned count = 0; double mean() const { return sum / count; } void add(double v) { sum += v, ++count; } } sky, crease, open;
+    struct {
+        double sum = 0.0;
+        unsigned count = 0;
+        double mean() const { return sum / count; }
+        void add(double v) { sum += v, ++count; }
+    } sky, crease, open;
     for (uint32_t y = 0; y < renderer.size.height; ++y)
         for (uint32_t x = 0; x < renderer.size.width; ++x) {
             const float z = renderer.depthAt(x, y), ndcY = 2.0f * (float(y) + 0.5f) / float(renderer.size.height) - 1.0f;
@@ -28,7 +33,8 @@ void look(const Renderer& renderer, const std::vector<uint8_t>& picture, const c
             else if (floor && z > 5.6f) crease.add(value);
             else if (floor && z < 2.5f) open.add(value);
         }
-    std::printf("%-14s %ux%u: sky %.3f, open floor %.3f, crease %.3f\n", method, renderer.size.width, renderer.size.height, sky.mean(), open.mean(), crease.mean());
+    std::printf("%-14s %ux%u: sky %.3f, open floor %.3f, crease %.3f\n", method, renderer.size.width, renderer.size.height, sky.mean(),
+        open.mean(), crease.mean());
     expect(sky.mean() == 1.0, "the sky is not open", method);
     expect(open.mean() > 0.95, "the open floor is dark", method);
     expect(crease.mean() < open.mean() - 0.07 && crease.mean() > 0.4, "the crease is not darker, or black", method);
@@ -61,7 +67,8 @@ int main(int argc, char** argv) {
                 const std::vector<uint8_t> picture = renderer.wait();
                 look(renderer, picture, method);
                 if (argc > 1) {
-                    const std::string name = std::string(argv[1]) + "/" + method + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + ".pgm";
+                    const std::string name =
+                        std::string(argv[1]) + "/" + method + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + ".pgm";
                     expect(write(name, renderer, picture), "the picture cannot be written", method);
                 }
             }

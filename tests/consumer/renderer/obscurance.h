@@ -5,14 +5,19 @@
 
 #include "renderer.h"
 
-namespace obscura::ao { struct Context; }
+namespace obscura::ao {
+struct Context;
+}
 
 class Obscurance {
 public:
     explicit Obscurance(const Renderer& renderer);
-    ~Obscurance();                         // the GPU must be idle
-    bool use(const char* method);          // false: unknown method, logged
-    struct Picture { VkImage image; VkImageLayout layout; };
+    ~Obscurance();                 // the GPU must be idle
+    bool use(const char* method);  // false: unknown method, logged
+    struct Picture {
+        VkImage image;
+        VkImageLayout layout;
+    };
     // Visibility of the renderer's depth, 8 bits a pixel; null on failure.
     Picture record(VkCommandBuffer cmd, const Renderer& renderer);
 

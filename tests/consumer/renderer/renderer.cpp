@@ -15,7 +15,8 @@ void must(VkResult result, const char* what) {
     std::exit(2);
 }
 
-VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT, const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+VkBool32 VKAPI_CALL onMessage(
+    VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT, const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     std::fprintf(stderr, "validation: %s\n", data->pMessage);
     ++static_cast<Renderer*>(user)->validationMessages;
     return VK_FALSE;
@@ -24,9 +25,9 @@ VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUti
 // Along a ray from the eye with direction (x, y, -1): the nearest of a floor, a wall and a box, in metres along -z; 0 for the sky.
 float scene(float x, float y) {
     float nearest = 1e9f;
-    if (y < 0.0f) nearest = std::min(nearest, -1.5f / y);                      // floor 1.5 m below the eye
-    if (6.0f * y < 1.0f) nearest = std::min(nearest, 6.0f);                    // wall 6 m away, up to 1 m above the eye
-    const float front = 4.0f;                                                  // box, 1 m wide and high, on the floor
+    if (y < 0.0f) nearest = std::min(nearest, -1.5f / y);    // floor 1.5 m below the eye
+    if (6.0f * y < 1.0f) nearest = std::min(nearest, 6.0f);  // wall 6 m away, up to 1 m above the eye
+    const float front = 4.0f;                                // box, 1 m wide and high, on the floor
     if (std::fabs(front * x) < 0.5f && front * y > -1.5f && front * y < -0.5f) nearest = std::min(nearest, front);
     return nearest < 1e8f ? nearest : 0.0f;
 }
@@ -51,9 +52,11 @@ void barrier(VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect, VkIm
 Renderer::Renderer() {
     createInstance();
     createDevice();
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, queueFamily};
+    VkCommandPoolCreateInfo pool{
+        VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, queueFamily};
     must(vkCreateCommandPool(device, &pool, nullptr, &m_pool), "vkCreateCommandPool");
-    VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, m_pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, kFrames};
+    VkCommandBufferAllocateInfo commands{
+        VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, m_pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, kFrames};
     must(vkAllocateCommandBuffers(device, &commands, m_commands), "vkAllocateCommandBuffers");
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, VK_FENCE_CREATE_SIGNALED_BIT};
     for (VkFence& f : m_fences) must(vkCreateFence(device, &fence, nullptr, &f), "vkCreateFence");
@@ -76,7 +79,8 @@ void Renderer::createInstance() {
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
     const char* validation = "VK_LAYER_KHRONOS_validation";
-    const bool validated = std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& l) { return !std::strcmp(l.layerName, validation); });
+    const bool validated =
+        std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& l) { return !std::strcmp(l.layerName, validation); });
     std::printf("validation: %s\n", validated ? "on" : "not installed");
 
     const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
@@ -146,7 +150,7 @@ Renderer::Buffer Renderer::createBuffer(VkDeviceSize bytes, VkBufferUsageFlags u
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device, made.buffer, &needs);
     const VkMemoryAllocateInfo memory{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
-                                      memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)};
+        memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)};
     must(vkAllocateMemory(device, &memory, nullptr, &made.memory), "vkAllocateMemory");
     must(vkBindBufferMemory(device, made.buffer, made.memory, 0), "vkBindBufferMemory");
     must(vkMapMemory(device, made.memory, 0, VK_WHOLE_SIZE, 0, &made.mapped), "vkMapMemory");
@@ -185,7 +189,8 @@ void Renderer::resize(uint32_t width, uint32_t height) {
     must(vkCreateImage(device, &info, nullptr, &depth), "vkCreateImage");
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(device, depth, &needs);
-    const VkMemoryAllocateInfo memory{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
+    const VkMemoryAllocateInfo memory{
+        VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
     must(vkAllocateMemory(device, &memory, nullptr, &m_depthMemory), "vkAllocateMemory");
     must(vkBindImageMemory(device, depth, m_depthMemory, 0), "vkBindImageMemory");
     VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, depth, VK_IMAGE_VIEW_TYPE_2D, VK_FORMAT_D32_SFLOAT};
@@ -218,7 +223,8 @@ VkCommandBuffer Renderer::begin() {
         region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
         region.imageExtent = {size.width, size.height, 1};
         vkCmdCopyBufferToImage(cmd, m_upload.buffer, depth, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-        barrier(cmd, depth, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+        barrier(
+            cmd, depth, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
         m_depthIsNew = false;
     }
     return cmd;

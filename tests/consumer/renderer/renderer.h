@@ -2,12 +2,12 @@
 // a depth buffer of a room with a box. Errors end the program.
 #pragma once
 
+#include <vulkan/vulkan.h>
 #include <cstdint>
 #include <vector>
-#include <vulkan/vulkan.h>
 
 struct Camera {
-    float projection[16];       // by columns; reversed depth, infinite far plane, y down
+    float projection[16];  // by columns; reversed depth, infinite far plane, y down
     float near = 0.1f;
 };
 
@@ -29,14 +29,18 @@ public:
     uint32_t queueFamily = 0;
     VkExtent2D size{};
     Camera camera;
-    VkImage depth = VK_NULL_HANDLE;          // VK_FORMAT_D32_SFLOAT, in DEPTH_STENCIL_READ_ONLY_OPTIMAL
+    VkImage depth = VK_NULL_HANDLE;  // VK_FORMAT_D32_SFLOAT, in DEPTH_STENCIL_READ_ONLY_OPTIMAL
     VkImageView depthView = VK_NULL_HANDLE;
     uint64_t frame = 0;
     uint32_t validationMessages = 0;
     float depthAt(uint32_t x, uint32_t y) const { return m_scene[size_t(y) * size.width + x]; }  // metres; 0: sky
 
 private:
-    struct Buffer { VkBuffer buffer; VkDeviceMemory memory; void* mapped; };
+    struct Buffer {
+        VkBuffer buffer;
+        VkDeviceMemory memory;
+        void* mapped;
+    };
     void createInstance();
     void createDevice();
     uint32_t memoryType(uint32_t bits, VkMemoryPropertyFlags wanted) const;

@@ -16,9 +16,9 @@
 #ifndef OBSCURA_AO_H
 #define OBSCURA_AO_H
 
+#include <vulkan/vulkan_core.h>
 #include <cstddef>
 #include <cstdint>
-#include <vulkan/vulkan_core.h>
 
 #define OBSCURA_VERSION_MAJOR 0
 #define OBSCURA_VERSION_MINOR 1
@@ -79,7 +79,7 @@ struct MethodInfo {
     uint32_t needs;              // inputs it reads, as Needs. Without normals in a Frame they are reconstructed from depth
     List<Parameter> parameters;  // its own, then those that all methods share
     List<Preset> presets;
-    bool baseline = false;       // a published method to compare with
+    bool baseline = false;  // a published method to compare with
 };
 
 // All methods, in the order of keys and menus. Static storage.
@@ -142,7 +142,7 @@ struct DeviceDesc {
     VkDevice device = VK_NULL_HANDLE;  // with the features synchronization2, maintenance4 and shaderStorageImageExtendedFormats enabled
     uint32_t queueFamily = 0;          // of the command buffers given to record(); supports compute
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  // the loader's; the library does not link it
-    uint32_t framesInFlight = 2;       // N >= 1: when record() is called, the GPU has finished the frame recorded N calls ago
+    uint32_t framesInFlight = 2;  // N >= 1: when record() is called, the GPU has finished the frame recorded N calls ago
     VisibilityFormat format = VisibilityFormat::r16f;  // of Output::image
     // Host memory of Vulkan objects; null: the driver's. Must outlive the context. The library's own containers use operator new.
     const VkAllocationCallbacks* allocator = nullptr;
@@ -151,7 +151,7 @@ struct DeviceDesc {
     void* logUser = nullptr;                                                 // passed to log()
 };
 
-struct Context;  // opaque
+struct Context;                                                                 // opaque
 OBSCURA_API Status create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
 OBSCURA_API void destroy(Context* context) noexcept;  // before the device, after the GPU has finished its frames; null is ignored
 
@@ -161,7 +161,7 @@ struct MethodSettings {
     const char* preset = "default";  // of the method
     List<Setting> settings;          // replace those of preset and resolve
     Falloff falloff;
-    const char* resolve = nullptr;   // of resolvePresets(), replaces settings of the preset; null: as the preset says
+    const char* resolve = nullptr;  // of resolvePresets(), replaces settings of the preset; null: as the preset says
 };
 OBSCURA_API Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
 
@@ -198,49 +198,50 @@ struct Volume {
     uint64_t bytes = 0;                // nanovdb: of the grid. dense: cells^3 / 8 are read
     uint32_t cells = 0;                // dense: cells a side, a power of two from 8 to 1024
     int32_t origin[3] = {};            // dense: the lowest cell held. nanovdb: any cell near the camera
-    float cellFromEye[16] = {};        // eye space -> cells, counted from the lowest corner of `origin`; rotation, translation, uniform scale
+    float cellFromEye[16] = {};  // eye space -> cells, counted from the lowest corner of `origin`; rotation, translation, uniform scale
 };
 
 // What lies behind the visible surface along each pixel's view ray, for methods with the parameter `depth_layers`, which says how much of
 // it they read. Both images are optional; `second` needs `thickness`. Linear depths, metres; sampled usage.
 struct DepthLayers {
-    ImageView thickness;      // Frame::size, one float (R16F is enough): distance along the view axis from the visible surface to the end of the
-                              // solid behind it. 0: an open sheet, which gets the method's own thickness. 65504: endless
-    ImageView second;         // two floats (RG32F, RG16F): depth of the next surface behind that solid, 0 for none, and its thickness
+    ImageView
+        thickness;     // Frame::size, one float (R16F is enough): distance along the view axis from the visible surface to the end of the
+                       // solid behind it. 0: an open sheet, which gets the method's own thickness. 65504: endless
+    ImageView second;  // two floats (RG32F, RG16F): depth of the next surface behind that solid, 0 for none, and its thickness
     VkExtent2D secondSize{};  // Frame::size, or half of it rounded up: then texel p belongs to pixel 2 p
 };
 
 // Images may be larger than `size`: their upper left part is read.
 struct Frame {
-    VkExtent2D size{};         // px, of depth and normals, guard band included
-    VkExtent2D guard{};        // px on each side that are read but not shown: visible = size - 2 guard. Multiples of 16 are fastest
+    VkExtent2D size{};          // px, of depth and normals, guard band included
+    VkExtent2D guard{};         // px on each side that are read but not shown: visible = size - 2 guard. Multiples of 16 are fastest
     float projection[16] = {};  // eye -> clip space of the whole image. The depth convention is read from it: perspective or orthographic,
                                 // reversed or not, finite or infinite, off-centre, y up or down
     float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // rigid; used by world normals and by history
-    ImageView depth;           // device: D16, D24, D32 or R32F; linear: R32F. Sampled usage
+    ImageView depth;  // device: D16, D24, D32 or R32F; linear: R32F. Sampled usage
     DepthKind depthKind = DepthKind::device;
     // Optional geometric normals, of any length but 0, sampled usage. Smooth or normal-mapped ones make `layered` spotty, since it compares
     // them with the depth buffer: leave them out there (standard deviation on a flat wall .0043 reconstructed, .0120 smooth).
     ImageView normals;
     NormalKind normalKind = NormalKind::eye;
     NormalEncoding normalEncoding = NormalEncoding::signedFloat;
-    ImageView motion;          // optional, for the parameter `temporal`: two floats, sampled usage; where each pixel's surface was last frame
+    ImageView motion;  // optional, for the parameter `temporal`: two floats, sampled usage; where each pixel's surface was last frame
     float motionScale[2] = {1, 1};  // motion * motionScale = px from this pixel to last frame's position, y down. Motion in UV:
                                     // {width, height}; in NDC with y up: {width / 2, -height / 2}; pointing from last frame to this:
                                     // negated
-    bool cut = false;          // camera cut: history is discarded this frame
-    DepthLayers layers;        // optional
-    Volume volume;             // optional
-    float skyDepth = 0.0f;     // metres: depths from here on are sky; 0: the far plane of `projection`
-    uint64_t index = 0;        // frame number: with `temporal`, selects this frame's rotation of the samples. Add 1 each frame
+    bool cut = false;               // camera cut: history is discarded this frame
+    DepthLayers layers;             // optional
+    Volume volume;                  // optional
+    float skyDepth = 0.0f;          // metres: depths from here on are sky; 0: the far plane of `projection`
+    uint64_t index = 0;             // frame number: with `temporal`, selects this frame's rotation of the samples. Add 1 each frame
 };
 
 // The image is the context's. It keeps its contents until framesInFlight more frames have been recorded; you may leave it in any layout.
 // (Bent normals would become a flag in MethodInfo and a second image here.)
 struct Output {
-    Status status = Status::invalid;  // not ok: nothing was recorded, the handles are null, a log line says why
-                                      // (outOfMemory: some commands may have been recorded; discard the command buffer)
-    VkImage image = VK_NULL_HANDLE;   // DeviceDesc::format, the visible size; usage sampled, transfer source and destination
+    Status status = Status::invalid;    // not ok: nothing was recorded, the handles are null, a log line says why
+                                        // (outOfMemory: some commands may have been recorded; discard the command buffer)
+    VkImage image = VK_NULL_HANDLE;     // DeviceDesc::format, the visible size; usage sampled, transfer source and destination
     VkImageView view = VK_NULL_HANDLE;  // 2D, one mip
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL; reads in any shader stage need no barrier
 };
@@ -252,7 +253,10 @@ OBSCURA_API uint64_t memoryUse(const Context* context) noexcept;  // bytes of de
 // refuse.
 OBSCURA_API uint64_t memoryUse(Context* context, const Frame& frame) noexcept;
 
-struct PassTime { const char* name; double milliseconds; };
+struct PassTime {
+    const char* name;
+    double milliseconds;
+};
 // Of the newest frame that the GPU has finished. Owned by the context, valid until the next record().
 OBSCURA_API List<PassTime> timings(Context* context) noexcept;
 
