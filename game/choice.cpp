@@ -26,11 +26,6 @@ std::vector<std::string> methodIds() {
     return ids;
 }
 
-std::string falloffText(const ao::Falloff& falloff) {
-    const std::string text = fmt::format("{}:{:g}", kFalloffNames[size_t(falloff.kind)], falloff.length);
-    return falloff.kind == ao::FalloffKind::ramp ? fmt::format("{}:{:g}", text, falloff.end) : text;
-}
-
 const ao::Preset* presetOf(const ao::Values& values) {
     for (const ao::Preset& preset : values.info().presets) {
         ao::Values same(values.info());
@@ -209,7 +204,7 @@ void Choice::assignToAll(const std::string& parameter, const std::string& value)
 void Choice::setFalloff(const std::string& text) {
     if (ao::parseFalloff(text.c_str(), falloff)) return;
     const std::string kind = text.substr(0, text.find(':'));
-    const std::vector<std::string> kinds(std::begin(kFalloffNames), std::end(kFalloffNames));
+    const std::vector<std::string> kinds(ao::falloffKinds().begin(), ao::falloffKinds().end());
     for (const std::string& known : kinds)
         if (kind == known)
             throw Complaint(fmt::format(

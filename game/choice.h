@@ -43,9 +43,7 @@ const ao::Preset* presetOf(const ao::Values& values);
 const ao::Preset* resolveOf(const ao::Values& values);
 void resolve(ao::Values& values, const ao::Preset& preset);
 std::string label(const ao::Values& values);  // "hbao", "hbao 8x4", "hbao steps=4 temporal=0.9": the first preset's name is left out
-std::string falloffText(const ao::Falloff& falloff);  // as setFalloff reads it
 // The options that choose these values: --method ID --preset NAME or --set ..., or the same as one --compare.
 std::string asOptions(const ao::Values& values, bool compare);
-inline constexpr const char* kFalloffNames[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};
 
 }  // namespace obscura::game

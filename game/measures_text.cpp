@@ -1,6 +1,7 @@
 // Measures: descriptions of frames, CSV and text tables.
 #include <fmt/format.h>
 
+#include "ao/settings_text.h"
 #include "choice.h"
 #include "measures.h"
 
@@ -14,7 +15,7 @@ Measures::Frame measuredFrame(const render::FrameOptions& frame, const scene::Wo
     measured.instances = world.instances().size();
     measured.sides.push_back(*frame.method);
     if (frame.compare) measured.sides.push_back(*frame.compare);
-    measured.falloff = falloffText(frame.falloff);
+    measured.falloff = ao::falloffText(frame.falloff);
     truth::WorldGeometry geometry;
     geometry.skipMasked = frame.skipMasked;
     const glm::uvec2 size(frame.visible.width / frame.sampleStep, frame.visible.height / frame.sampleStep);

@@ -89,7 +89,7 @@ namespace {
 
 void falloffPanel(ao::Falloff& falloff) {
     int kind = int(falloff.kind);
-    if (ImGui::Combo("falloff", &kind, kFalloffNames, int(std::size(kFalloffNames)))) {
+    if (ImGui::Combo("falloff", &kind, ao::falloffKinds().items, int(ao::falloffKinds().size()))) {
         falloff.kind = ao::FalloffKind(kind);
         if (falloff.kind == ao::FalloffKind::ramp) falloff.end = std::max(falloff.end, falloff.length * 2.0f);
     }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "ao/settings_text.h"
 #include "app/files.h"
 
 namespace obscura::game {
@@ -122,7 +123,7 @@ void Report::write(const std::filesystem::path& folder) const {
         {"scene", stage.info.name},
         {"method", choice.info().id},
         {"parameters", parametersOf(choice.values())},
-        {"falloff", falloffText(choice.falloff)},
+        {"falloff", ao::falloffText(choice.falloff)},
         {"width", options.size.width},
         {"height", options.size.height},
         {"guard", options.guard},
@@ -163,7 +164,7 @@ void Report::write(const std::filesystem::path& folder) const {
         {"picture", fmt::format("{} x {}, guard band {:g}", options.size.width, options.size.height, options.guard)},
         {"method", settingsText(choice.values())},
         {"right of the divider", options.compare ? settingsText(options.compare->values()) : "no second method"},
-        {"falloff", falloffText(choice.falloff)},
+        {"falloff", ao::falloffText(choice.falloff)},
         {"scene", stage.file},
         {"triangles", fmt::format("{} ({} drawn, {} draws)", facts.triangles, facts.drawn, facts.draws)},
         {"instances", fmt::format("{} ({} dropped toasters)", facts.instances, stage.toys())},

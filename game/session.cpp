@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "ao/settings_text.h"
 #include "app/files.h"
 
 namespace obscura::game {
@@ -115,7 +116,7 @@ bool Session::dragDivider(const app::Window& window, bool onPanel) {
 
 std::string Session::comparison() const {
     return fmt::format("{} {} --falloff {} --split {:.3f}", asOptions(choice.values(), false), asOptions(other.values(), true),
-        falloffText(choice.falloff), split);
+        ao::falloffText(choice.falloff), split);
 }
 
 void Session::follow(bool on) {
@@ -164,7 +165,7 @@ std::string Session::referenceHint(const Measures::Reading& reading) const {
     return fmt::format(
         "obscura-flythrough --flythrough {}{} --length {} --size {}x{} --falloff {} --method none --filter raw --no-pictures --out "
         "out/references",
-        replayFile.string(), from, replayFrames(path, replayStart), reading.size.x, reading.size.y, falloffText(choice.falloff));
+        replayFile.string(), from, replayFrames(path, replayStart), reading.size.x, reading.size.y, ao::falloffText(choice.falloff));
 }
 
 void Session::act(Action action, int key) {

@@ -1,7 +1,8 @@
+#include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <string>
+#include <iterator>
 
 #include "ao/method.h"
 
@@ -11,11 +12,11 @@ namespace {
 constexpr const char* kNames[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};
 constexpr float kExponentialReach = 5.5451774f;  // ln 256: what is left rounds away in 8 bits
 
+// Independent of the locale, unlike strtof.
 bool parseLength(const char*& text, float& out) {
     if (*text != ':') return false;
-    char* end = nullptr;
-    out = std::strtof(text + 1, &end);
-    if (end == text + 1) return false;
+    const auto [end, error] = std::from_chars(text + 1, text + std::strlen(text), out);
+    if (error != std::errc()) return false;
     text = end;
     return std::isfinite(out);
 }
@@ -37,6 +38,22 @@ bool parseFalloff(const char* text, Falloff& out) {
     }
     return false;
 }
+
+size_t formatFalloff(const Falloff& falloff, char* text, size_t size) {
+    char whole[64];
+    char* end = std::copy_n(kNames[size_t(falloff.kind)], std::strlen(kNames[size_t(falloff.kind)]), whole);
+    const auto append = [&](float length) {
+        *end++ = ':';
+        end = std::to_chars(end, std::end(whole), length).ptr;
+    };
+    append(falloff.length);
+    if (falloff.kind == FalloffKind::ramp) append(falloff.end);
+    const size_t length = size_t(end - whole);
+    if (size > 0) *std::copy_n(whole, std::min(length, size - 1), text) = '\0';
+    return length;
+}
+
+List<const char*> falloffKinds() { return {kNames, std::size(kNames)}; }
 
 float evaluate(const Falloff& falloff, float distance) {
     const float x = distance / falloff.length;

@@ -6,9 +6,10 @@
 #include <vector>
 
 #define GLFW_INCLUDE_NONE
+#include "gpu/api.h"  // Vulkan first: GLFW then declares its Vulkan functions
+
 #include <GLFW/glfw3.h>
 #include <glm/glm.hpp>
-#include "gpu/api.h"
 
 namespace obscura::app {
 

@@ -6,25 +6,19 @@
 
 #include <fmt/format.h>
 
+#include "ao/settings_text.h"
+
 namespace obscura::truth {
 namespace {
 
 // ln 65536: the rest of an exponential falloff is smaller than any error that a reference resolves.
 constexpr float kExponentialReach = 11.0903549f;
 
-constexpr const char* kKinds[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};
-
-std::string nameOf(const ao::Falloff& falloff) {
-    const char* kind = kKinds[size_t(falloff.kind)];
-    return falloff.kind == ao::FalloffKind::ramp ? fmt::format("{}:{}:{}", kind, falloff.length, falloff.end)
-                                                 : fmt::format("{}:{}", kind, falloff.length);
-}
-
 }  // namespace
 
 RayFalloff rayFalloff(const ao::Falloff& falloff) {
     RayFalloff result;
-    result.name = nameOf(falloff);
+    result.name = ao::falloffText(falloff);
     result.hard = falloff.kind == ao::FalloffKind::constant;
     if (falloff.kind == ao::FalloffKind::exponential) {
         result.reach = kExponentialReach * falloff.length;

@@ -1,6 +1,6 @@
 // Triangles to cells. Conservative: a cell is set exactly if triangle and cube touch, by the separating axes of a triangle and a box
-// [Akenine-Möller 2001], in columns along the triangle's dominant axis [Schwarz and Seidel 2010]. Thin: only enough cells that no path over
-// cell faces crosses the surface (their 6-separating shell).
+// [Akenine-Möller 2001], in columns along the triangle's dominant axis [Schwarz and Seidel 2010]. Thin: only enough cells that no
+// path over cell faces crosses the surface (their 6-separating shell).
 #pragma once
 
 #include <functional>

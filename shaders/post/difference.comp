@@ -13,7 +13,8 @@ layout(set = 0, binding = 2, rgba8) uniform writeonly image2D picture;
 layout(push_constant) uniform Constants { DifferenceBlock block; };
 
 vec3 falseColour(float value) {
-    vec3 low = value < 0.0 ? kBelow[0] : kAbove[0], middle = value < 0.0 ? kBelow[1] : kAbove[1], high = value < 0.0 ? kBelow[2] : kAbove[2];
+    vec3 low = value < 0.0 ? kBelow[0] : kAbove[0], middle = value < 0.0 ? kBelow[1] : kAbove[1],
+         high = value < 0.0 ? kBelow[2] : kAbove[2];
     float t = 2.0 * min(abs(value), 1.0);
     return mix(mix(low, middle, min(t, 1.0)), high, max(t - 1.0, 0.0)) / 255.0;
 }

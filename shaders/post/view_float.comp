@@ -15,7 +15,9 @@ layout(push_constant) uniform Constants { ViewBlock view; };
 vec3 depthColor(float depth) { return vec3(clamp(1.0 - (log2(max(depth, 1e-6)) + 3.0) / 14.0, 0.0, 1.0)); }
 
 // Logarithmic: 1 mm is black, 10 m is white. Sheets are blue, endless solids red.
-vec3 thicknessColor(float t) { return t <= 0.0 ? vec3(0.1, 0.25, 0.9) : t >= 65504.0 ? vec3(0.6, 0.1, 0.05) : vec3(clamp((log2(t) * 0.30103 + 3.0) / 4.0, 0.0, 1.0)); }
+vec3 thicknessColor(float t) {
+    return t <= 0.0 ? vec3(0.1, 0.25, 0.9) : t >= 65504.0 ? vec3(0.6, 0.1, 0.05) : vec3(clamp((log2(t) * 0.30103 + 3.0) / 4.0, 0.0, 1.0));
+}
 
 vec3 valueOf(vec4 texel) {
     switch (view.mode) {

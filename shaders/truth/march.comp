@@ -86,7 +86,8 @@ void main() {
     for (uint f = 0u; f < kMaxFalloffs; ++f) sum[f] = 0.0;
     for (uint i = 0u; i < c.points; ++i) {
         uint point = c.firstPoint + i;
-        float hit = march(receiver.position.xyz, rayDirection(receiver.normal.xyz, rayU(point, sequence, seed), rayV(point, sequence, seed)));
+        float hit =
+            march(receiver.position.xyz, rayDirection(receiver.normal.xyz, rayU(point, sequence, seed), rayV(point, sequence, seed)));
         if (hit >= 0.0)
             for (uint f = 0u; f < c.falloffs; ++f) sum[f] += rho(f, hit);
     }

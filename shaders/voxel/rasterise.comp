@@ -90,9 +90,12 @@ bool shapeOf(VoxelJob job, uint triangle, out Shape s) {
 // Draws the rows `first`, `first` + `every`, ...
 void draw(VoxelJob job, Shape s, int first, int every) {
     bool thin = job.thin != 0u;
-    Edge xy0 = edgeOf(s.p0.xy, s.p1.xy, s.p2.xy, s.slack, thin), xz0 = edgeOf(s.p0.xz, s.p1.xz, s.p2.xz, s.slack, thin), yz0 = edgeOf(s.p0.yz, s.p1.yz, s.p2.yz, s.slack, thin);
-    Edge xy1 = edgeOf(s.p1.xy, s.p2.xy, s.p0.xy, s.slack, thin), xz1 = edgeOf(s.p1.xz, s.p2.xz, s.p0.xz, s.slack, thin), yz1 = edgeOf(s.p1.yz, s.p2.yz, s.p0.yz, s.slack, thin);
-    Edge xy2 = edgeOf(s.p2.xy, s.p0.xy, s.p1.xy, s.slack, thin), xz2 = edgeOf(s.p2.xz, s.p0.xz, s.p1.xz, s.slack, thin), yz2 = edgeOf(s.p2.yz, s.p0.yz, s.p1.yz, s.slack, thin);
+    Edge xy0 = edgeOf(s.p0.xy, s.p1.xy, s.p2.xy, s.slack, thin), xz0 = edgeOf(s.p0.xz, s.p1.xz, s.p2.xz, s.slack, thin),
+         yz0 = edgeOf(s.p0.yz, s.p1.yz, s.p2.yz, s.slack, thin);
+    Edge xy1 = edgeOf(s.p1.xy, s.p2.xy, s.p0.xy, s.slack, thin), xz1 = edgeOf(s.p1.xz, s.p2.xz, s.p0.xz, s.slack, thin),
+         yz1 = edgeOf(s.p1.yz, s.p2.yz, s.p0.yz, s.slack, thin);
+    Edge xy2 = edgeOf(s.p2.xy, s.p0.xy, s.p1.xy, s.slack, thin), xz2 = edgeOf(s.p2.xz, s.p0.xz, s.p1.xz, s.slack, thin),
+         yz2 = edgeOf(s.p2.yz, s.p0.yz, s.p1.yz, s.slack, thin);
 
     // Height of the plane at the middle of a column, and the largest distance from it to the middle of an overlapping cell. The normal of a
     // thin triangle is inaccurate, which widens the distance; a degenerate one is decided by the edge tests alone.

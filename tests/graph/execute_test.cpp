@@ -205,26 +205,34 @@ TEST_F(GraphTest, declaringPredictsMemoryWithoutSideEffects) {
 }
 
 TEST_F(GraphTest, failedFrameLeavesHistoriesUnchanged) {
+    enum Fault { none, contradiction, allocation };  // found while resolving the passes; while making their images
     History history;
     bool recorded = false;
-    const auto step = [&](bool broken, uint32_t size) {
+    const auto step = [&](Fault fault, uint32_t size) {
         begin();
         const Graph::HistoryPair pair = m_graph.history("count", {VK_FORMAT_R32_SFLOAT, size, size}, history);
         m_graph.pass("count", m_kit.add).read(pair.previous).write(pair.current).constants(Push{1.0f, 0}).dispatch(size, size);
         recorded = false;
         m_graph.onRecorded([&] { recorded = true; });
-        if (broken) m_graph.pass("broken", m_kit.add).read(pair.current).keep().dispatch(16, 16);
-        else probe(pair.current);
-        const Status status = submit();
-        EXPECT_EQ(status, broken ? Status::invalid : Status::ok);
-        EXPECT_EQ(recorded, !broken);
+        if (fault == contradiction) m_graph.pass("broken", m_kit.add).read(pair.current).keep().dispatch(16, 16);
+        if (fault == allocation)
+            m_graph.pass("too large", m_kit.fill)
+                .write(image("too large", m_device.caps().maxImageSize + 1))
+                .constants(Push{})
+                .keep()
+                .dispatch(16, 16);
+        if (fault == none) probe(pair.current);
+        EXPECT_EQ(submit() == Status::ok, fault == none);
+        EXPECT_EQ(recorded, fault == none);
         return pair.valid;
     };
-    step(false, 16);
-    step(false, 16);
-    step(true, 16);
-    step(true, 64);  // a failed frame of another size does not replace the images either
-    EXPECT_TRUE(step(false, 16));
+    step(none, 16);
+    step(none, 16);
+    for (const Fault fault : {contradiction, allocation}) {
+        EXPECT_TRUE(step(fault, 16));
+        step(fault, 64);  // nor do images of another size replace the old ones
+    }
+    EXPECT_TRUE(step(none, 16));
     EXPECT_FLOAT_EQ(value(2), 3.0f);
 }
 

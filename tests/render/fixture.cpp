@@ -87,7 +87,7 @@ Picture RenderFixture::render(const scene::World& world, const render::FrameOpti
     Picture picture;
     Readback backs[7];
     device().nextFrame();
-    m_graph->begin();
+    m_graph->begin(&m_executor->timings());
     const render::Outputs out = m_renderer->add(*m_graph, world, options);
     copyOut(*m_graph, out.color, backs[0], picture.color);
     copyOut(*m_graph, out.visibility, backs[1], picture.visibility);

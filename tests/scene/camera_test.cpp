@@ -202,7 +202,7 @@ TEST_F(CameraFile, PathErrorsNameTheField) {
     EXPECT_TRUE(contains(
         pathError(
             R"({"duration":1,"loop":false,"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"),
-        "/duration: is 1 s, but the keys take 2 s"));
+        "/duration: is 1 s, but the keys span 2 s"));
     EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"),
         "a loop's last key"));
     EXPECT_TRUE(contains(pathError("[]"), "must be an object"));

@@ -7,6 +7,7 @@
 #include "ao/methods/statistical_tables.h"
 #include "ao/prepare.h"
 #include "gpu/test_shaders.h"
+#include "graph/executor.h"
 
 namespace obscura::test {
 
@@ -50,7 +51,6 @@ protected:
             {}, m_read);
         program("windows.comp", R"(#include "ao/statistical/fixed_point.h"
 #include "ao/statistical/window.glsl"
-#include "graph/executor.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(binding = 1, r32f) uniform readonly image2D depth;

@@ -247,7 +247,7 @@ TEST_F(ScreenReferenceTest, isDeterministicAndAddsRaysWhereNeeded) {
     EXPECT_EQ(*std::min_element(a.rays.values.begin(), a.rays.values.end()), 128.0f);
     EXPECT_GT(*std::max_element(a.rays.values.begin(), a.rays.values.end()), 128.0f);
     options.progress = [](float) { return false; };
-    test::expectError([&] { trace(frame, falloffs, options); }, "stopped");
+    test::expectError([&] { trace(frame, falloffs, options); }, "cancelled");
 }
 
 TEST_F(ScreenReferenceTest, invalidInputIsRefused) {

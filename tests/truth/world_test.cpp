@@ -263,7 +263,7 @@ TEST(WorldReference, progressIsReportedAndCanStop) {
     world.trace(std::span<const Receiver>(), falloffs, options);  // no receivers: progress still ends at 1
     EXPECT_EQ(last, 1.0f);
     options.progress = [](float) { return false; };
-    test::expectError([&] { world.trace(lumps.receivers, falloffs, options); }, "stopped");
+    test::expectError([&] { world.trace(lumps.receivers, falloffs, options); }, "cancelled");
     options.progress = [](float) -> bool { throw scene::Error("from the callback"); };
     test::expectError([&] { world.trace(lumps.receivers, falloffs, options); }, "from the callback");
 }

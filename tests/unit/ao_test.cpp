@@ -1,12 +1,15 @@
 // The library without a GPU: falloffs, parameter tables, views from projection matrices.
 #include <algorithm>
+#include <clocale>
 #include <cmath>
+#include <cstring>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "ao/prepare.h"
+#include "ao/settings_text.h"
 
 namespace obscura::ao {
 namespace {
@@ -22,6 +25,32 @@ TEST(Falloff, parsesItsText) {
         {"", "quadratic", "quadratic:", "quadratic:-1", "quadratic:0", "quadratic:2x", "cubic:1", "ramp:1", "ramp:1:0.5", "linear:nan"})
         EXPECT_FALSE(parseFalloff(bad, f)) << bad;
     EXPECT_FALSE(parseFalloff(nullptr, f));
+}
+
+TEST(Falloff, textIsReadBackAsTheSameFalloff) {
+    for (const char* text : {"exponential:0.5", "linear:1e-05", "quadratic:2", "wendland:0.1", "constant:1e+07", "ramp:0.385:1"}) {
+        Falloff f;
+        ASSERT_TRUE(parseFalloff(text, f)) << text;
+        EXPECT_EQ(falloffText(f), text);
+    }
+    char small[8] = "unused!";
+    EXPECT_EQ(formatFalloff({FalloffKind::ramp, 0.385f, 1.0f}, small, sizeof(small)), std::strlen("ramp:0.385:1"));
+    EXPECT_STREQ(small, "ramp:0.");
+    EXPECT_EQ(formatFalloff({}, nullptr, 0), std::strlen("quadratic:2"));
+}
+
+// A host may set a locale whose decimal point is a comma.
+TEST(Falloff, textDoesNotDependOnTheLocale) {
+    const std::string before = std::setlocale(LC_NUMERIC, nullptr);
+    if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8") && !std::setlocale(LC_NUMERIC, "fr_FR.UTF-8"))
+        GTEST_SKIP() << "no locale with a decimal comma is installed";
+    Falloff f;
+    const bool parsed = parseFalloff("quadratic:0.5", f);
+    const std::string text = falloffText(f);
+    std::setlocale(LC_NUMERIC, before.c_str());
+    EXPECT_TRUE(parsed);
+    EXPECT_FLOAT_EQ(f.length, 0.5f);
+    EXPECT_EQ(text, "quadratic:0.5");
 }
 
 TEST(Falloff, valuesByFormula) {

@@ -124,22 +124,32 @@ std::string tableText(const Table& table, bool brief) {
     return text;
 }
 
+// Breaks lines at spaces, so that none has more than 140 columns.
+std::string wrapped(std::string text) {
+    constexpr size_t kColumns = 140;
+    for (size_t line = 0; text.size() - line > kColumns;) {
+        const size_t space = text.rfind(' ', line + kColumns);
+        if (space == std::string::npos || space <= line) break;
+        text[space] = '\n';
+        line = space + 1;
+    }
+    return text;
+}
+
 std::string legend(const Results& r) {
-    return fmt::format(
+    std::string flicker;
+    if (r.flickerFrames)
+        flicker = fmt::format(" F_e: flicker of error over {} frames of each scene's flythrough at {} x {}, mean.", r.flickerFrames,
+            r.flickerWidth, r.flickerHeight);
+    const std::string text = fmt::format(
         "ms: median time of the method's own passes, geometric mean over the scenes, {} rounds of {} frames in turns after {} for warm-up; "
-        "p95: 95th percentile over the\n"
-        "median, the worst scene's; MB: device memory beyond the frame's own. eA: mean absolute error of visibility against rays through "
-        "the scene's triangles, {}\n"
-        "a pixel; eA screen: against rays through the depth buffer, mean over the scenes.{} Bold: no other is both faster and more "
-        "accurate, on the mean of\n"
-        "the scenes. {}; compare times only inside the table. (layers): read where `depth_layers` says so. Missing normals are "
-        "reconstructed; any method but\n"
-        "`hybrid` takes voxels with `offscreen`, and motion with `temporal`.\n",
-        r.rounds, r.frames, r.warmUp, r.rays,
-        r.flickerFrames ? fmt::format(" F_e: flicker of error over {} frames of each scene's flythrough at {} x {}, mean.", r.flickerFrames,
-                              r.flickerWidth, r.flickerHeight)
-                        : "",
-        r.device);
+        "p95: 95th percentile over the median, the worst scene's; MB: device memory beyond the frame's own. eA: mean absolute error of "
+        "visibility against rays through the scene's triangles, {} a pixel; eA screen: against rays through the depth buffer, mean over "
+        "the scenes.{} Bold: no other is both faster and more accurate, on the mean of the scenes. {}; compare times only inside the "
+        "table. (layers): read where `depth_layers` says so. Missing normals are reconstructed; any method but `hybrid` takes voxels with "
+        "`offscreen`, and motion with `temporal`.",
+        r.rounds, r.frames, r.warmUp, r.rays, flicker, r.device);
+    return wrapped(text) + "\n";
 }
 
 }  // namespace

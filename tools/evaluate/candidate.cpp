@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "ao/settings_text.h"
 #include "app/complaint.h"
 #include "app/voxel_arguments.h"
 
@@ -15,8 +16,6 @@ namespace obscura::evaluate {
 using app::Complaint;
 
 namespace {
-
-constexpr const char* kKinds[] = {"exponential", "linear", "quadratic", "wendland", "constant", "ramp"};
 
 std::string safe(std::string text) {
     for (char& c : text)
@@ -215,7 +214,7 @@ std::vector<Candidate> variants(
 
 std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts) {
     std::vector<FalloffChoice> list;
-    const std::vector<std::string> kinds(std::begin(kKinds), std::end(kKinds));
+    const std::vector<std::string> kinds(ao::falloffKinds().begin(), ao::falloffKinds().end());
     for (const std::string& text : texts) {
         ao::Falloff falloff;
         if (!ao::parseFalloff(text.c_str(), falloff)) {
@@ -226,9 +225,7 @@ std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts) {
                 "--falloff {}: write {}, lengths in metres above 0", text, kind == "ramp" ? "ramp:START:END" : kind + ":LENGTH"));
         }
         // Normalized spelling, because cells and channels are found by it.
-        const std::string kind = kKinds[size_t(falloff.kind)];
-        std::string plain = fmt::format("{}:{:g}", kind, falloff.length);
-        if (falloff.kind == ao::FalloffKind::ramp) plain += fmt::format(":{:g}", falloff.end);
+        const std::string plain = ao::falloffText(falloff);
         const bool known = std::any_of(list.begin(), list.end(), [&](const FalloffChoice& f) { return f.text == plain; });
         if (!known) list.push_back({falloff, plain});
     }

@@ -41,7 +41,9 @@ set_target_properties(fmt::fmt-header-only PROPERTIES INTERFACE_COMPILE_DEFINITI
   endforeach()
   file(WRITE "${OBSCURA_SYSROOT}/lib/vulkan-1.def" "${definition}")
   find_program(OBSCURA_DLLTOOL NAMES ${prefix}-dlltool REQUIRED)
-  execute_process(COMMAND "${OBSCURA_DLLTOOL}" -d "${OBSCURA_SYSROOT}/lib/vulkan-1.def" -l "${OBSCURA_SYSROOT}/lib/libvulkan-1.dll.a" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(
+    COMMAND "${OBSCURA_DLLTOOL}" -d "${OBSCURA_SYSROOT}/lib/vulkan-1.def" -l "${OBSCURA_SYSROOT}/lib/libvulkan-1.dll.a"
+    COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
 set(CMAKE_FIND_ROOT_PATH /usr/${prefix} "${OBSCURA_SYSROOT}")

@@ -21,7 +21,8 @@ endforeach()
 # The static library. With GNU ld and objcopy for ELF: one object, linked once, in which every symbol but the API's is local, so that
 # nothing in it can meet a symbol of the host's. Elsewhere, and with sanitizers, the objects as they are.
 set(prelinked OFF)
-if(CMAKE_EXECUTABLE_FORMAT STREQUAL ELF AND CMAKE_LINKER AND CMAKE_OBJCOPY AND NOT OBSCURA_SANITIZE AND NOT CMAKE_INTERPROCEDURAL_OPTIMIZATION)
+if(CMAKE_EXECUTABLE_FORMAT STREQUAL ELF AND CMAKE_LINKER AND CMAKE_OBJCOPY AND NOT OBSCURA_SANITIZE
+    AND NOT CMAKE_INTERPROCEDURAL_OPTIMIZATION)
   execute_process(COMMAND ${CMAKE_LINKER} --help OUTPUT_VARIABLE linker_help ERROR_QUIET)
   if(linker_help MATCHES "--force-group-allocation")  # GNU ld 2.29 and later; others would keep COMDAT groups, which a host's may replace
     set(prelinked ON)
@@ -70,13 +71,19 @@ if(MSVC)  # else the DLL's import library and the static library would have one 
   set_target_properties(obscura_ao_static PROPERTIES OUTPUT_NAME obscura-ao-static)
 endif()
 
+if(NOT OBSCURA_INSTALL)
+  return()
+endif()
+
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Obscura)
 install(TARGETS obscura_ao_static obscura_ao_shared EXPORT Obscura INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/ao/include/obscura DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT Obscura NAMESPACE Obscura:: FILE ObscuraTargets.cmake DESTINATION ${config_folder})
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/ObscuraConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfig.cmake INSTALL_DESTINATION ${config_folder})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/ObscuraConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfig.cmake
+  INSTALL_DESTINATION ${config_folder})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfigVersion.cmake DESTINATION ${config_folder})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/ObscuraConfigVersion.cmake
+  DESTINATION ${config_folder})
 
 # What a static library asks of a C linker's command line: the C++ runtime of the compiler that built it.
 if(MSVC)

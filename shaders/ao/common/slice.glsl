@@ -33,8 +33,9 @@ bool receive(View view, ivec2 p, float reach, out Receiver r) {
     r.last = ivec2(view.size) - 1;
     r.padded = paddedSize(view.size);
     float z = imageLoad(depths, texel).x;
-    r.edges = packEdges(edgesAt(z, vec4(imageLoad(depths, max(texel - ivec2(1, 0), 0)).x, imageLoad(depths, min(texel + ivec2(1, 0), r.last)).x,
-                                        imageLoad(depths, max(texel - ivec2(0, 1), 0)).x, imageLoad(depths, min(texel + ivec2(0, 1), r.last)).x)));
+    r.edges =
+        packEdges(edgesAt(z, vec4(imageLoad(depths, max(texel - ivec2(1, 0), 0)).x, imageLoad(depths, min(texel + ivec2(1, 0), r.last)).x,
+                                 imageLoad(depths, max(texel - ivec2(0, 1), 0)).x, imageLoad(depths, min(texel + ivec2(0, 1), r.last)).x)));
     r.pixel = vec2(texel) + 0.5;
     r.here = eyePosition(view, r.pixel, z * 0.99999);  // bias against rounding of depth
     r.v = towardsEye(view, r.here);
@@ -62,7 +63,9 @@ Slice sliceAt(View view, Receiver r, float angle, bool aroundRay) {
     return Slice(across, along * inversesqrt(max(dot(along, along), 1e-20)));
 }
 // Jittered position of sample i of slice k, 0 to 1 along the reach.
-float samplePlace(Receiver r, uint k, uint i, uint steps) { return (float(i) + fract(r.noise.y + float(k + i * steps) * 0.61803399)) / float(steps); }
+float samplePlace(Receiver r, uint k, uint i, uint steps) {
+    return (float(i) + fract(r.noise.y + float(k + i * steps) * 0.61803399)) / float(steps);
+}
 int levelAt(float distance, float mipOffset) { return int(clamp(log2(distance) + 0.5 - mipOffset, 0.0, float(kDepthLevels) - 0.5)); }
 // Vector from the receiver to the surface in the depth buffer at a place.
 vec3 toSurface(View view, Receiver r, vec2 at, int level) {

@@ -34,7 +34,8 @@ ivec2 pixelIn(ivec2 cell, int level, ivec2 last) { return min((cell << level) + 
 int levelFor(float pixels) { return clamp((floatBitsToInt(pixels) >> 23) - 127 - 4, 0, kDepthLevels - 1); }
 
 uvec4 packLayers(Layers s, uint normal) {
-    return uvec4(floatBitsToUint(s.first), normal, packHalf2x16(clamp(vec2(s.firstLength, s.secondLength), -kEndless, kEndless)), floatBitsToUint(s.second));
+    return uvec4(floatBitsToUint(s.first), normal, packHalf2x16(clamp(vec2(s.firstLength, s.secondLength), -kEndless, kEndless)),
+        floatBitsToUint(s.second));
 }
 uvec2 packFirstLayer(Layers s, uint normal) {
     uint bytes = packSnorm4x8(vec4(unpackSnorm2x16(normal), 0.0, 0.0));

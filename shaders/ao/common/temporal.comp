@@ -31,7 +31,9 @@ const float kUnrestFrames = 8.0;
 const float kUnrestUnit = 1.0 / 16384.0;  // of visibility; maximum 1/8
 
 // Depth with its lowest 12 bits replaced: 11 bits of unrest, then 1 if the last change was a rise.
-uint packDepth(float z, float unrest, bool rose) { return (floatBitsToUint(z) & 0xfffff000u) | (rose ? 0x800u : 0u) | uint(min(unrest / kUnrestUnit + 0.5, 2047.0)); }
+uint packDepth(float z, float unrest, bool rose) {
+    return (floatBitsToUint(z) & 0xfffff000u) | (rose ? 0x800u : 0u) | uint(min(unrest / kUnrestUnit + 0.5, 2047.0));
+}
 
 // 14 bits of visibility, 6 of accumulated frames, 6 and 6 of the octahedral normal (error up to 3 degrees).
 uint packHistory(float value, float frames, uint normal) {

@@ -17,7 +17,8 @@ uint shareOf(View view, ivec2 pixel, uint side) {
 
 // Noise in [0,1) for interleaved pixels: a lattice [Roberts 2018] whose period is not the tile's, or each share would have constant noise.
 vec3 pixelNoise(ivec2 pixel) {
-    return fract(float(pixel.x & 1023) * vec3(0.7548776662, 0.8191725134, 0.8566748839) + float(pixel.y & 1023) * vec3(0.5698402910, 0.6710436067, 0.7338918566));
+    return fract(float(pixel.x & 1023) * vec3(0.7548776662, 0.8191725134, 0.8566748839) +
+                 float(pixel.y & 1023) * vec3(0.5698402910, 0.6710436067, 0.7338918566));
 }
 
 // Whether `there`, with normal m, is on the surface through `here`, of depth z and normal n.

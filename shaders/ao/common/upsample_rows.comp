@@ -43,7 +43,8 @@ void main() {
         float zq = uintBitsToFloat(receiver.x);
         vec2 at = vec2(ivec2(j, p.y) * every + ivec2(view.guard)) + middle;
         vec3 d = eyePosition(view, at, zq) - here;
-        float w = bilateral(abs(at.x - float(own.x) - 0.5) * inverseWindow, dot(n, unpackNormal(receiver.y)), length(d) * inverseRange, value - nearest);
+        float w = bilateral(
+            abs(at.x - float(own.x) - 0.5) * inverseWindow, dot(n, unpackNormal(receiver.y)), length(d) * inverseRange, value - nearest);
         w = isSky(view, zq) ? 0.0 : w;
         sum += w * value;
         weight += w;

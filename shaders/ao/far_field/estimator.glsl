@@ -15,7 +15,8 @@ vec3 columnOf(uvec4 texel, float f) {
 // A(phi2, b) - A(phi1, b), both from the nearest row; rows are dense enough.
 vec3 tableDifference(float phi1, float phi2, float v) {
     float column1 = phi1 * (float(kTableColumns - 1u) / kPi), column2 = phi2 * (float(kTableColumns - 1u) / kPi);
-    int y = int(v * float(kTableRows - 1u) + 0.5), x1 = min(int(column1), int(kTableColumns) - 2), x2 = min(int(column2), int(kTableColumns) - 2);
+    int y = int(v * float(kTableRows - 1u) + 0.5), x1 = min(int(column1), int(kTableColumns) - 2),
+        x2 = min(int(column2), int(kTableColumns) - 2);
     return columnOf(imageLoad(table, ivec2(x2, y)), column2 - float(x2)) - columnOf(imageLoad(table, ivec2(x1, y)), column1 - float(x1));
 }
 

@@ -19,7 +19,8 @@ struct Axis {
 Axis axisOf(View view, vec2 along) {
     vec2 g = along * view.unproject.xy;
     float step = length(g);
-    return Axis(dot(vec2(view.size) * 0.5 * view.unproject.xy + view.unproject.zw, g / step), step, view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0));
+    return Axis(dot(vec2(view.size) * 0.5 * view.unproject.xy + view.unproject.zw, g / step), step,
+        view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0));
 }
 float metresAt(Axis axis, float depth) { return depth * axis.scale.x + axis.scale.y; }
 

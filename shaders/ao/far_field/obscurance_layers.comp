@@ -30,7 +30,8 @@ Arc arcOf(Segment s, Horizon h, vec4 object, float perUnit, vec2 ends) {
     vec2 fronts = vec2(front - bend, front + bend), first = cornerAt(s, ends.x, fronts.x), last = cornerAt(s, ends.y, fronts.y);
     bool atEnd = first.x * last.y > first.y * last.x;
     vec2 high = atEnd ? last : first;
-    return Arc(high, atEnd ? fronts.y : fronts.x, ends, fronts, object.y / max(object.x, 1e-12), min(object.z, 1.0), object.z > 0.004 && raises(h, high));
+    return Arc(high, atEnd ? fronts.y : fronts.x, ends, fronts, object.y / max(object.x, 1e-12), min(object.z, 1.0),
+        object.z > 0.004 && raises(h, high));
 }
 vec2 lowestOf(Segment s, Arc arc) {  // metres
     vec2 backs = arc.fronts * arc.ratio, first = cornerAt(s, arc.ends.x, backs.x), last = cornerAt(s, arc.ends.y, backs.y);
@@ -60,7 +61,8 @@ void nearest(Segment s, Receiver r, Place at, Horizon h, uint i, float first, fl
 }
 
 // As farPoint(), and the objects of the interval. kept: the direction whose object cells are stored: this one, or its opposite.
-void next(Segment s, Place at, FarFieldConstants c, Horizon h, Direction kept, bool opposite, float low, float high, inout uint j, out Found found, out Arc arc) {
+void next(Segment s, Place at, FarFieldConstants c, Horizon h, Direction kept, bool opposite, float low, float high, inout uint j,
+    out Found found, out Arc arc) {
     float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
     uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u), jn = j >> n;
     float width = c.interval * float(1u << n), middle = (float(jn) + 0.5) * width, away = middle - at.along;
@@ -71,7 +73,8 @@ void next(Segment s, Place at, FarFieldConstants c, Horizon h, Direction kept, b
     float line = clamp((at.line + 0.5 * (low + high) * away) * uintBitsToFloat((127u - n) << 23u) - 0.5, 0.0, float(lines - 1u));
     line = opposite ? float(lines - 1u) - line : line;
     uint l = min(uint(line), lines - 2u), row = levelBase(kept, n, kPyramid) + (opposite ? (at.d.intervals >> n) - 1u - jn : jn) * lines;
-    vec4 object = mix(unpackObject(imageLoad(objectCells, texelOf(row + l)).xy), unpackObject(imageLoad(objectCells, texelOf(row + l + 1u)).xy), line - float(l));
+    vec4 object = mix(unpackObject(imageLoad(objectCells, texelOf(row + l)).xy),
+        unpackObject(imageLoad(objectCells, texelOf(row + l + 1u)).xy), line - float(l));
     object.w *= opposite ? -float(1u << n) : float(1u << n);
     arc = arcOf(s, h, object, at.perUnit, away + vec2(-0.5, 0.5) * width);
     j += 1u << n;
@@ -88,7 +91,8 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
     for (uint segment = 0u;;) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
         Open open = openAt(s.start, k * c.segments + segment);
-        uint i = 0u, j = at.first, end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
+        uint i = 0u, j = at.first,
+             end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;
         Found found = Found(vec2(0.0), 0.0, false), before = found;
         Arc arc = Arc(vec2(0.0), 1.0, vec2(0.0), vec2(1.0), 1.0, 0.0, false);
@@ -114,8 +118,11 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
             }
             bool object = arc.valid;
             vec2 point = object ? arc.high / arc.over : found.to / max(found.over, 1e-12), n = s.n * (isFar ? 1.0 : share);
-            vec2 line = object ? lowestOf(s, arc) - point : lineBelow(slabAt(s, point), before.to / max(before.over, 1e-12) - point, before.over > 0.0 ? c.connection * open.horizon.connected : 0.0);
-            addOccluder(open, point, line, object, object ? arc.opacity : 1.0, object || (found.valid && raises(open.horizon, found.to)), n, c.unit);
+            vec2 line = object ? lowestOf(s, arc) - point
+                               : lineBelow(slabAt(s, point), before.to / max(before.over, 1e-12) - point,
+                                     before.over > 0.0 ? c.connection * open.horizon.connected : 0.0);
+            addOccluder(open, point, line, object, object ? arc.opacity : 1.0, object || (found.valid && raises(open.horizon, found.to)), n,
+                c.unit);
             found.valid = found.valid && object;
             arc.valid = false;
             if (!found.valid && i >= c.taps && j >= end) break;

@@ -46,16 +46,20 @@ void main() {
                 vec2 point = pointOf(axis, c, best1[i], middleOf(d, 2.0 * width, (corner.y >> 1u) + i));
                 mean1[i] = (l & 1u) == 0u ? point : mean1[i] + point;
                 if ((l & 1u) == 1u)
-                    imageStore(cells, texelOf(levelBase(d, from + 1u, kPyramid) + ((corner.y >> 1u) + i) * (lines >> 1u) + (line >> 1u)), uvec4(packPoint(mean1[i] * 0.5)));
+                    imageStore(cells, texelOf(levelBase(d, from + 1u, kPyramid) + ((corner.y >> 1u) + i) * (lines >> 1u) + (line >> 1u)),
+                        uvec4(packPoint(mean1[i] * 0.5)));
             }
             for (uint i = 0u; i < side / 4u; ++i) {
                 vec2 point = pointOf(axis, c, best2[i], middleOf(d, 4.0 * width, (corner.y >> 2u) + i));
                 mean2[i] = (l & 3u) == 0u ? point : mean2[i] + point;
                 if ((l & 3u) == 3u)
-                    imageStore(cells, texelOf(levelBase(d, from + 2u, kPyramid) + ((corner.y >> 2u) + i) * (lines >> 2u) + (line >> 2u)), uvec4(packPoint(mean2[i] * 0.25)));
+                    imageStore(cells, texelOf(levelBase(d, from + 2u, kPyramid) + ((corner.y >> 2u) + i) * (lines >> 2u) + (line >> 2u)),
+                        uvec4(packPoint(mean2[i] * 0.25)));
             }
             mean3 += pointOf(axis, c, best3, middleOf(d, 8.0 * width, corner.y >> 3u));
         }
-        if (side == 8u) imageStore(cells, texelOf(levelBase(d, from + 3u, kPyramid) + (corner.y >> 3u) * (lines >> 3u) + (corner.x >> 3u)), uvec4(packPoint(mean3 * 0.125)));
+        if (side == 8u)
+            imageStore(cells, texelOf(levelBase(d, from + 3u, kPyramid) + (corner.y >> 3u) * (lines >> 3u) + (corner.x >> 3u)),
+                uvec4(packPoint(mean3 * 0.125)));
     }
 }

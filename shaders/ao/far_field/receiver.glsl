@@ -52,7 +52,8 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     s.n = vec2((dot(r.n.xy, e) - ez * r.nz) * inverse, r.nz);
     s.start = -s.n.x * inversesqrt(max(dot(s.n, s.n), 1e-20));
     // Width in azimuth: the angle between the segment's two sides projected onto the plane perpendicular to the zenith.
-    s.weight = arcTangent(2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
+    s.weight = arcTangent(
+        2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
     vec2 space = mix(r.pixel, r.size - r.pixel, greaterThan(along, vec2(0.0))) / max(abs(along), vec2(1e-6));
     s.exit = min(space.x, space.y) / stretch;
     s.scale = r.scale;
@@ -60,7 +61,9 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
 }
 // Vector from the receiver to a point r pixels away: across = (depth * scale.x + scale.y) r, over = 1. The result is linear in across,
 // depth and over, so `over` times all of them gives `over` times the vector, whose direction needs no division.
-vec2 seenAt(Segment s, float across, float depth, float over) { return vec2(across * s.du, depth * s.z0 + across * s.dz - over * s.origin); }
+vec2 seenAt(Segment s, float across, float depth, float over) {
+    return vec2(across * s.du, depth * s.z0 + across * s.dz - over * s.origin);
+}
 vec2 pointAt(Segment s, float depth, float r) { return seenAt(s, (depth * s.scale.x + s.scale.y) * r, depth, 1.0); }
 // Direction away from the camera at such a point, not normalised.
 vec2 slabAt(Segment s, vec2 point) { return vec2(point.x * s.scale.x, point.y + s.origin); }

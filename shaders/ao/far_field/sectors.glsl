@@ -36,7 +36,8 @@ Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
 }
 Turn turnOf(FarFieldConstants c) {
     float sector = kPi / float(c.directions), segment = sector / float(c.segments), slope = tan(sector) / c.lineStep;
-    return Turn(vec2(cos(segment - sector), sin(segment - sector)), vec2(cos(2.0 * segment), sin(2.0 * segment)), vec2(cos(segment), sin(segment)), slope, 0.0);
+    return Turn(vec2(cos(segment - sector), sin(segment - sector)), vec2(cos(2.0 * segment), sin(2.0 * segment)),
+        vec2(cos(segment), sin(segment)), slope, 0.0);
 }
 
 // Position of a receiver in a direction's grid.
@@ -52,7 +53,8 @@ Place placeOf(Direction d, Receiver r, FarFieldConstants c) {
     vec2 at = r.pixel - 0.5 * r.size;
     float along = dot(at, d.along) + d.origin.x, line = (dot(at, vec2(-d.along.y, d.along.x)) + d.origin.y) / c.lineStep;
     Axis axis = axisOf(viewBlock, d.along);
-    return Place(d, along, line, uint(ceil(along / c.interval)) + 1u, 1.0 / c.unit, 1.0 / (c.slope * axis.step), d.origin.x - along - axis.from / axis.step);
+    return Place(d, along, line, uint(ceil(along / c.interval)) + 1u, 1.0 / c.unit, 1.0 / (c.slope * axis.step),
+        d.origin.x - along - axis.from / axis.step);
 }
 
 // Occlusion of a segment so far: a horizon or, with kThin, bins.
@@ -78,7 +80,8 @@ vec3 cellAt(Place at, Segment s, FarFieldConstants c, uint n, uint j, float midd
     if (kAveraging == kPyramid) {
         float line = clamp(0.5 * (from + to) * uintBitsToFloat((127u - n) << 23u) - 0.5, 0.0, last);  // over 2^n
         uint l = min(uint(line), lines - 2u);
-        point = mix(unpackHalf2x16(imageLoad(cells, texelOf(row + l)).x), unpackHalf2x16(imageLoad(cells, texelOf(row + l + 1u)).x), line - float(l));
+        point = mix(unpackHalf2x16(imageLoad(cells, texelOf(row + l)).x), unpackHalf2x16(imageLoad(cells, texelOf(row + l + 1u)).x),
+            line - float(l));
     } else {
         point = unpackHalf2x16(imageLoad(cells, texelOf(row + uint(clamp(0.5 * (from + to), 0.0, last)))).x);
     }
@@ -98,7 +101,9 @@ struct Found {
 void add(inout Occlusion occlusion, Segment s, FarFieldConstants c, Found found, Found before, float share) {
     vec2 point = found.to / max(found.over, 1e-12), slab = slabAt(s, point);
     if (kThin != 0u) addSlab(occlusion.bins, point, normalize(slab), c.thickness, found.valid, s.n * share, c.unit);
-    else raise(occlusion.horizon, point, slab, before.to / max(before.over, 1e-12), before.over > 0.0 ? c.connection : 0.0, found.valid, s.n * share, c.unit);
+    else
+        raise(occlusion.horizon, point, slab, before.to / max(before.over, 1e-12), before.over > 0.0 ? c.connection : 0.0, found.valid,
+            s.n * share, c.unit);
 }
 
 // Sample i of the near field, at (i + 0.6)^1.5 times `first` pixels: denser near the receiver.
@@ -112,7 +117,8 @@ Found nearPoint(Occlusion occlusion, Segment s, Receiver r, uint i, float first,
 
 // The longest aligned interval that starts at j and is at most `longest` times its distance; j advances past it. low, high: the segment's
 // sides, lines per pixel of distance.
-Found farPoint(Occlusion occlusion, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float skyDepth) {
+Found farPoint(
+    Occlusion occlusion, Segment s, Receiver r, Place at, FarFieldConstants c, inout uint j, float low, float high, float skyDepth) {
     float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
     uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u);
     float width = c.interval * float(1u << n), middle = (float(j >> n) + 0.5) * width, away = middle - at.along;
@@ -137,7 +143,8 @@ vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth
     for (uint segment = 0u;;) {
         Segment s = segmentOf(r, along, 1.0 / dot(along, at.d.along), turn.side);
         Occlusion occlusion = Occlusion(horizonAt(s.start), binsBelow(s.start));
-        uint i = 0u, j = at.first, end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
+        uint i = 0u, j = at.first,
+             end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of near-field occlusion; its horizon rises anyway
         // Search for the next point that counts, then add it, so that neighbouring pixels diverge less. Loops are post-tested: llvmpipe
         // runs a pre-tested loop once more with every lane masked.

@@ -31,7 +31,8 @@ void main() {
             sum += weight * vec3(1.0, cos(2.0 * t), sin(2.0 * t));
         }
         vec3 after = before + sum * step;
-        imageStore(table, ivec2(column, row), uvec4(packHalf2x16(vec2(before.x, after.x)), packHalf2x16(vec2(before.y, after.y)), packHalf2x16(vec2(before.z, after.z)), 0));
+        imageStore(table, ivec2(column, row),
+            uvec4(packHalf2x16(vec2(before.x, after.x)), packHalf2x16(vec2(before.y, after.y)), packHalf2x16(vec2(before.z, after.z)), 0));
         before = after;
     }
 }

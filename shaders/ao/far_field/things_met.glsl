@@ -45,7 +45,8 @@ void addOccluder(inout Open open, vec2 point, vec2 line, bool object, float opac
     ivec2 bins = ivec2(place + 0.5);
     open.covered |= found && !raised ? bitfieldInsert(0u, ~0u, bins.x, max(bins.y - bins.x, 0)) & evenBins(opacity, open.pattern) : 0u;
     open.horizon.square = raised ? point.y * abs(point.y) / dot(point, point) : open.horizon.square;
-    open.horizon.connected = found && !object ? min(open.horizon.connected + kConnectionRate * (open.horizon.angle - angle), 1.0) : open.horizon.connected;
+    open.horizon.connected =
+        found && !object ? min(open.horizon.connected + kConnectionRate * (open.horizon.angle - angle), 1.0) : open.horizon.connected;
     open.horizon.angle = raised ? angle : open.horizon.angle;
 }
 

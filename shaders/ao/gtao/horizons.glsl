@@ -77,12 +77,16 @@ void main() {
                 ivec2 cell = clamp(ivec2(at), ivec2(0), r.last) >> level, q = pixelIn(cell, level, r.last);
                 uvec4 texel = imageLoad(packedLayers, cell + mipTexel(r.padded, ivec2(0), level));
                 Layers layers = unpackLayers(texel);
-                vec3 d = eyePosition(view, vec2(q) + 0.5, layers.first) - r.here, ray = eyePosition(view, vec2(q) + 0.5, layers.first + 1.0) - r.here - d;
+                vec3 d = eyePosition(view, vec2(q) + 0.5, layers.first) - r.here,
+                     ray = eyePosition(view, vec2(q) + 0.5, layers.first + 1.0) - r.here - d;
                 vec3 from = d - halves[side].previous, e = d + (layers.second - layers.first) * ray;
-                float inverse = inversesqrt(max(dot(d, d), 1e-20)), inverseE = inversesqrt(max(dot(e, e), 1e-20)), c = dot(d, r.v) * inverse;
-                float off = dot(unpackNormal(texel.y), from), down = off * off < kFlat * kFlat * dot(from, from) ? halves[side].previousCosine : 1.0;
+                float inverse = inversesqrt(max(dot(d, d), 1e-20)), inverseE = inversesqrt(max(dot(e, e), 1e-20)),
+                      c = dot(d, r.v) * inverse;
+                float off = dot(unpackNormal(texel.y), from),
+                      down = off * off < kFlat * kFlat * dot(from, from) ? halves[side].previousCosine : 1.0;
                 coverLayer(halves[side], rho, r.v, d, ray, layers.firstLength, c, down, inside && dot(d, r.n) * inverse > 0.001);
-                coverLayer(halves[side], rho, r.v, e, ray, layers.secondLength, dot(e, r.v) * inverseE, 1.0, inside && layers.second > 0.0 && dot(e, r.n) * inverseE > 0.001);
+                coverLayer(halves[side], rho, r.v, e, ray, layers.secondLength, dot(e, r.v) * inverseE, 1.0,
+                    inside && layers.second > 0.0 && dot(e, r.n) * inverseE > 0.001);
                 halves[side].previous = inside ? d : halves[side].previous;
                 halves[side].previousCosine = inside ? c : halves[side].previousCosine;
 #else

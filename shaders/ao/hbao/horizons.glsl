@@ -129,10 +129,12 @@ void main() {
             vec3 d = eyePosition(view, vec2(q) + 0.5, layers.first) - here;
             vec3 ray = eyePosition(view, vec2(q) + 0.5, layers.first + 1.0) - here - d;
             vec3 m = unpackNormal(packed.y), from = d - arc.previous, e = d + (layers.second - layers.first) * ray;
-            float inverse = inversesqrt(max(dot(d, d), 1e-20)), inverseE = inversesqrt(max(dot(e, e), 1e-20)), off = dot(m, from), sine = dot(d, v) * inverse;
+            float inverse = inversesqrt(max(dot(d, d), 1e-20)), inverseE = inversesqrt(max(dot(e, e), 1e-20)), off = dot(m, from),
+                  sine = dot(d, v) * inverse;
             float down = off * off < kFlat * kFlat * dot(from, from) ? arc.previousSine : 1.0;
             covered += coverLayer(arc, rho, d, ray, layers.firstLength, sine, down, v, inside && dot(d, n) * inverse >= leastRise);
-            covered += coverLayer(arc, rho, e, ray, layers.secondLength, dot(e, v) * inverseE, 1.0, v, inside && layers.second > 0.0 && dot(e, n) * inverseE >= leastRise);
+            covered += coverLayer(arc, rho, e, ray, layers.secondLength, dot(e, v) * inverseE, 1.0, v,
+                inside && layers.second > 0.0 && dot(e, n) * inverseE >= leastRise);
             arc.previous = inside ? d : arc.previous;
             arc.previousSine = inside ? sine : arc.previousSine;
 #else

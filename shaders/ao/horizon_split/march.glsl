@@ -58,7 +58,8 @@ Origin originAt(View view, ivec2 texel, float z, vec3 n, float offset) {
     n = dot(n, towardsEye(view, p)) < 0.0 ? -n : n;
     float a = 1.0 / (1.0 + max(n.z, -0.999));  // [Frisvad 2012] for normals that face the camera
     float footprint = (view.orthographic > 0.5 ? 1.0 : z) / view.pixelsPerMetre;
-    return Origin(p + n * (offset * footprint), n, vec3(1.0 - n.x * n.x * a, -n.x * n.y * a, -n.x), vec3(-n.x * n.y * a, 1.0 - n.y * n.y * a, -n.y));
+    return Origin(
+        p + n * (offset * footprint), n, vec3(1.0 - n.x * n.x * a, -n.x * n.y * a, -n.x), vec3(-n.x * n.y * a, 1.0 - n.y * n.y * a, -n.y));
 }
 
 // Positions of samples along a line: step j of N_s at the fraction t = (j + noise) / N_s.

@@ -22,7 +22,8 @@ Space spaceOf(View view, Origin origin) {
 vec3 towards(Space space, vec3 d) { return cellsAlong(space.volume, d); }
 
 float blockedAt(Space space, vec3 ray, Steps walk, float first) {
-    float steps = clamp(ceil(walk.radius / (kStride * space.volume.anchor.w)), 1.0, kMostSteps), step = walk.radius / steps, shift = first / walk.part;
+    float steps = clamp(ceil(walk.radius / (kStride * space.volume.anchor.w)), 1.0, kMostSteps), step = walk.radius / steps,
+          shift = first / walk.part;
     float result = kFree;
     for (float k = steps - 1.0; k >= 0.0; --k) {  // back to front: the last hit is the nearest
         float l = (k + shift) * step;

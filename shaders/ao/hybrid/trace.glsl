@@ -70,7 +70,8 @@ void main() {
         float far = hit >= 0.0 ? falloff(rho, hit * step + lift * c) : 0.0;
         blocked += c * mix(far, falloff(rho, lift * c), originBlocked);
         total += c;
-        azimuthVector = vec2(azimuthVector.x * rotation.x - azimuthVector.y * rotation.y, azimuthVector.x * rotation.y + azimuthVector.y * rotation.x);
+        azimuthVector =
+            vec2(azimuthVector.x * rotation.x - azimuthVector.y * rotation.y, azimuthVector.x * rotation.y + azimuthVector.y * rotation.x);
         shift = fract(shift + shiftStep);
     }
     // Shares have different sums of cosines: dividing by their mean makes the shares average to the whole. A single share's visibility

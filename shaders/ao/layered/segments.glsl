@@ -131,7 +131,8 @@ void main() {
                 float off = dot(ns, from), plane = dot(ns, d);
                 bool samePlane = off * off < kFlat * kFlat * dot(ns, ns) * dot(from, from);
                 bool concave = off < 0.0 && dot(state.previousNormal, from) > 0.0 && layers.firstLength < 0.0;
-                Ray ray0 = rayAt(here, sign * min(samePlane ? state.previousEnd : concave ? state.previousAt : e0, l) * stepRay), ray1 = rayAt(here, sign * max(e1, l) * stepRay);
+                Ray ray0 = rayAt(here, sign * min(samePlane ? state.previousEnd : concave ? state.previousAt : e0, l) * stepRay),
+                    ray1 = rayAt(here, sign * max(e1, l) * stepRay);
                 float maxRise = (samePlane ? 0.5 : kRise) * zs;
                 maxRise = layers.firstLength > 0.0 ? min(layers.firstLength, maxRise) : maxRise;
                 float maxRise0 = concave ? 0.5 * zs : maxRise;
@@ -150,7 +151,8 @@ void main() {
                 float g = layers.second - z;
                 vec3 b = vec3(ray.offset, 0.0) + g * ray.dir;
                 bool secondAbove = dot(b, here.n) > kAbove * length(b);
-                coverLayer(state, rho, ray0, ray, ray1, g, g, g, layers.secondLength, 1e9, 0.0, inside && secondAbove && layers.second > 0.0);
+                coverLayer(
+                    state, rho, ray0, ray, ray1, g, g, g, layers.secondLength, 1e9, 0.0, inside && secondAbove && layers.second > 0.0);
 #endif
                 if (++i >= steps) break;
             }

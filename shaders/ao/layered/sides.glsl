@@ -69,10 +69,12 @@ float harmonicMean(float a, float b) { return 2.0 * a * b / max(a + b, 1e-20); }
 // Covers the segment of a layer over the stratum from ray e0 through l to e1. Its front is at depth differences f0, f, f1; size: its packed
 // length at l. The back of a solid keeps its depth, as for round objects, unless that halves the length; the back of a sheet is parallel to
 // its front. nearest: upper bound of the distance at e0. least: least length of a solid when it covers.
-void coverLayer(inout Side side, FalloffBlock rho, Ray e0, Ray l, Ray e1, float f0, float f, float f1, float size, float nearest, float least, bool counts) {
+void coverLayer(inout Side side, FalloffBlock rho, Ray e0, Ray l, Ray e1, float f0, float f, float f1, float size, float nearest,
+    float least, bool counts) {
     bool solid = size > 0.0;
     float b = f + abs(size), b0 = solid ? max(f0 + 0.5 * size, b) : f0 - size, b1 = solid ? max(f1 + 0.5 * size, b) : f1 - size;
-    float d = distanceTo(l, f, solid ? b : f), d0 = min(distanceTo(e0, f0, solid ? b0 : f0), min(d, nearest)), d1 = distanceTo(e1, f1, solid ? b1 : f1);
+    float d = distanceTo(l, f, solid ? b : f), d0 = min(distanceTo(e0, f0, solid ? b0 : f0), min(d, nearest)),
+          d1 = distanceTo(e1, f1, solid ? b1 : f1);
     float w0 = falloff(rho, harmonicMean(d, d0)), w1 = falloff(rho, harmonicMean(d, d1));
     float more = solid ? max(least - size, 0.0) : 0.0;
     float front = cosine(l, f), back = cosine(l, b + more);

@@ -33,7 +33,8 @@ void order(inout Texel a, inout Texel b) {
 float depthOnPlane(View view, vec2 from, vec2 to, float z, vec3 n) {
     vec2 xy = to * view.unproject.xy + view.unproject.zw;
     bool orthographic = view.orthographic > 0.5;
-    float offset = dot(n, eyePosition(view, from, z)) - (orthographic ? dot(n.xy, xy) : 0.0), slope = (orthographic ? 0.0 : dot(n.xy, xy)) - n.z;
+    float offset = dot(n, eyePosition(view, from, z)) - (orthographic ? dot(n.xy, xy) : 0.0),
+          slope = (orthographic ? 0.0 : dot(n.xy, xy)) - n.z;
     return abs(slope) > 1e-6 ? offset / slope : z;
 }
 

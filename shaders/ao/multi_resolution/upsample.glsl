@@ -42,10 +42,12 @@ Obscurance combined(View view, ivec2 p, Surface here, Obscurance own) {
         Surface there = surfaceOf(view, (2.0 * vec2(q) + 1.0) * texel, imageLoad(coarseDepth, q).x, imageLoad(coarseNormals, q).x);
         float w = alike(here, there, perTolerance, planes) * (1.0 - 0.5 * apart.x) * (1.0 - 0.5 * apart.y);
         ivec2 texelOfArea = q - coarseOrigin;
-        gather(far, w, unpacked(uvec2(imageLoad(coarse, texelOfArea).x, kDirected ? imageLoad(coarseDirections, texelOfArea).x : 0u), there.n));
+        gather(far, w,
+            unpacked(uvec2(imageLoad(coarse, texelOfArea).x, kDirected ? imageLoad(coarseDirections, texelOfArea).x : 0u), there.n));
         weights += w;
     }
     float scale = weights > 1e-20 ? 1.0 / weights : 0.0;
     vec3 most = far.most * scale;
-    return Obscurance(along(own.most, here.n) > along(most, here.n) ? own.most : most, own.sum + scale * far.sum, own.count + scale * far.count);
+    return Obscurance(
+        along(own.most, here.n) > along(most, here.n) ? own.most : most, own.sum + scale * far.sum, own.count + scale * far.count);
 }

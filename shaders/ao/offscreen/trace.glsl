@@ -56,7 +56,8 @@ void main() {
     vec3 xi = fract(cellNoise(latticeCell(volume, receiver, up, grain)) + frameShift(view));
     vec3 tangent, bitangent;
     basisAround(up, tangent, bitangent);
-    vec3 tangentPixels = toPixels(lens, eyeAlong(volume, tangent)), bitangentPixels = toPixels(lens, eyeAlong(volume, bitangent)), upPixels = toPixels(lens, n);
+    vec3 tangentPixels = toPixels(lens, eyeAlong(volume, tangent)), bitangentPixels = toPixels(lens, eyeAlong(volume, bitangent)),
+         upPixels = toPixels(lens, n);
 
     uint stepCount = uint(clamp(ceil(rho.reach / (stride * metres)), 1.0, kMostSteps));
     float step = rho.reach / float(stepCount), cellsPerStep = step / metres, slackCells = kSlackCells * metres;
@@ -82,10 +83,12 @@ void main() {
 #ifdef DEPTH_LAYERS
             // Layers are extended by the slack, because cells behind a back may contain it; rays then do not step over thin layers.
             Layers layers = unpackLayers(imageLoad(packedLayers, texel));
-            float behind = q.z - layers.first, next = q.z - layers.second, size = abs(layers.firstLength) + slackCells, nextSize = abs(layers.secondLength) + slackCells;
+            float behind = q.z - layers.first, next = q.z - layers.second, size = abs(layers.firstLength) + slackCells,
+                  nextSize = abs(layers.secondLength) + slackCells;
             vec3 d = surfaceAt(lens, texel, layers.first) - here, e = surfaceAt(lens, texel, layers.second) - here;
             bool two = layers.second > 0.0, isHidden = behind > size && !(two && next > -slackCells && next < nextSize);
-            bool ends = inside && (countedByMethod(behind, slack, size, dot(d, d), reach2) || two && countedByMethod(next, slack, nextSize, dot(e, e), reach2));
+            bool ends = inside && (countedByMethod(behind, slack, size, dot(d, d), reach2) ||
+                                      two && countedByMethod(next, slack, nextSize, dot(e, e), reach2));
 #else
             float zq = imageLoad(depth, texel).x;
             float behind = q.z - zq;
@@ -98,7 +101,8 @@ void main() {
         // Distance from the receiver, which is below the origin: between that to an occluder on its surface (no offset) and that to one
         // that faces the ray (lift * c).
         blocked += hit >= 0.0 ? falloff(rho, hit * step + 0.5 * lift * c) : 0.0;
-        azimuthVector = vec2(azimuthVector.x * golden.x - azimuthVector.y * golden.y, azimuthVector.x * golden.y + azimuthVector.y * golden.x);
+        azimuthVector =
+            vec2(azimuthVector.x * golden.x - azimuthVector.y * golden.y, azimuthVector.x * golden.y + azimuthVector.y * golden.x);
         shift = fract(shift + 0.754877666);
     }
     imageStore(map, p, vec4(clamp(1.0 - blocked / float(rayCount), 0.0, 1.0)));

@@ -35,7 +35,8 @@ void main() {
     float blocked = 0.0;
     for (uint i = 0u;;) {
         vec3 k = kernel[i].xyz, s = here + t * k.x + b * k.y + n * k.z;
-        float pointDepth = max(-s.z, 1e-3), zq = imageLoad(depth, clamp(ivec2(floor(pixelOf(view, vec3(s.xy, -pointDepth)))), ivec2(0), last)).x;
+        float pointDepth = max(-s.z, 1e-3),
+              zq = imageLoad(depth, clamp(ivec2(floor(pixelOf(view, vec3(s.xy, -pointDepth)))), ivec2(0), last)).x;
         blocked += zq <= pointDepth - least ? smoothstep(0.0, 1.0, range / abs(z - zq)) : 0.0;
         if (++i >= samples) break;
     }

@@ -63,7 +63,8 @@ void main() {
         furthest -= far;
     }
     if (layers >= 8u) {
-        mat4 half0 = sumThird(0u, x, y, pitch), half1 = sumThird(1u, x, y, pitch), half2 = sumThird(2u, x, y, pitch), half3 = sumThird(3u, x, y, pitch);
+        mat4 half0 = sumThird(0u, x, y, pitch), half1 = sumThird(1u, x, y, pitch), half2 = sumThird(2u, x, y, pitch),
+             half3 = sumThird(3u, x, y, pitch);
         blocked = blockedBy(half0, shape) + blockedBy(half1, shape) + blockedBy(half2, shape) + blockedBy(half3, shape);
         near -= half0;
         middle -= half1;

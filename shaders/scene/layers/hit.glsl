@@ -11,7 +11,8 @@ uint faceOfHit(uint hit) { return hit & 255u; }
 
 // Linear depth, metres; infinite for sky.
 float linearDepth(mat4 projection, float d) {
-    return projection[2][3] != 0.0 ? projection[3][2] / (projection[2][2] - projection[2][3] * d) : d > 0.0 ? (projection[3][2] - d) / projection[2][2] : 1.0 / 0.0;
+    return projection[2][3] != 0.0 ? projection[3][2] / (projection[2][2] - projection[2][3] * d)
+        : d > 0.0 ? (projection[3][2] - d) / projection[2][2] : 1.0 / 0.0;
 }
 
 #endif

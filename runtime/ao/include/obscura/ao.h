@@ -78,8 +78,8 @@ struct MethodInfo {
     const char* sentence;        // how it works
     uint32_t needs;              // inputs it reads, as Needs. Without normals in a Frame they are reconstructed from depth
     List<Parameter> parameters;  // its own, then those that all methods share
-    List<Preset> presets;
-    bool baseline = false;  // a published method to compare with
+    List<Preset> presets;        // the first is "default"
+    bool baseline = false;       // a published method to compare with
 };
 
 // All methods, in the order of keys and menus. Static storage.
@@ -105,12 +105,15 @@ enum class FalloffKind : uint32_t {
 };
 
 struct Falloff {
-    FalloffKind kind = FalloffKind::quadratic;
-    float length = 2.0f;  // metres, above 0
-    float end = 0.0f;     // metres, above length; ramp only
+    FalloffKind kind = FalloffKind::quadratic;  // the curve
+    float length = 2.0f;                        // metres, above 0
+    float end = 0.0f;                           // metres, above length; ramp only
 };
 // "quadratic:2", "exponential:0.5", "ramp:0.385:1". False if malformed or if a length is not positive.
 OBSCURA_API bool parseFalloff(const char* text, Falloff& out);
+// The same as text, so that parseFalloff() gives the same falloff: at most `size` bytes with the final zero. Returns the text's length.
+OBSCURA_API size_t formatFalloff(const Falloff& falloff, char* text, size_t size);
+OBSCURA_API List<const char*> falloffKinds();                        // names of FalloffKind's values, in their order
 OBSCURA_API float evaluate(const Falloff& falloff, float distance);  // metres -> [0, 1]
 OBSCURA_API float reach(const Falloff& falloff);                     // metres from where it counts as 0 (exponential: where 1/256 is left)
 
@@ -160,8 +163,8 @@ OBSCURA_API void destroy(Context* context) noexcept;  // before the device, afte
 struct MethodSettings {
     const char* preset = "default";  // of the method
     List<Setting> settings;          // replace those of preset and resolve
-    Falloff falloff;
-    const char* resolve = nullptr;  // of resolvePresets(), replaces settings of the preset; null: as the preset says
+    Falloff falloff;                 // by which every method counts occluders
+    const char* resolve = nullptr;   // of resolvePresets(), replaces settings of the preset; null: as the preset says
 };
 OBSCURA_API Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
 
@@ -192,12 +195,12 @@ enum class NormalEncoding : uint8_t {
 // that no cube covers.
 enum class VolumeStructure : uint8_t { dense, nanovdb };
 struct Volume {
-    VolumeStructure structure = VolumeStructure::dense;
-    VkBuffer buffer = VK_NULL_HANDLE;  // storage usage; null: no volume
-    uint64_t offset = 0;               // bytes, a multiple of minStorageBufferOffsetAlignment
-    uint64_t bytes = 0;                // nanovdb: of the grid. dense: cells^3 / 8 are read
-    uint32_t cells = 0;                // dense: cells a side, a power of two from 8 to 1024
-    int32_t origin[3] = {};            // dense: the lowest cell held. nanovdb: any cell near the camera
+    VolumeStructure structure = VolumeStructure::dense;  // of `buffer`
+    VkBuffer buffer = VK_NULL_HANDLE;                    // storage usage; null: no volume
+    uint64_t offset = 0;                                 // bytes, a multiple of minStorageBufferOffsetAlignment
+    uint64_t bytes = 0;                                  // nanovdb: of the grid. dense: cells^3 / 8 are read
+    uint32_t cells = 0;                                  // dense: cells a side, a power of two from 8 to 1024
+    int32_t origin[3] = {};                              // dense: the lowest cell held. nanovdb: any cell near the camera
     float cellFromEye[16] = {};  // eye space -> cells, counted from the lowest corner of `origin`; rotation, translation, uniform scale
 };
 
@@ -218,13 +221,13 @@ struct Frame {
     float projection[16] = {};  // eye -> clip space of the whole image. The depth convention is read from it: perspective or orthographic,
                                 // reversed or not, finite or infinite, off-centre, y up or down
     float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // rigid; used by world normals and by history
-    ImageView depth;  // device: D16, D24, D32 or R32F; linear: R32F. Sampled usage
-    DepthKind depthKind = DepthKind::device;
+    ImageView depth;                          // device: D16, D24, D32 or R32F; linear: R32F. Sampled usage
+    DepthKind depthKind = DepthKind::device;  // what `depth` holds
     // Optional geometric normals, of any length but 0, sampled usage. Smooth or normal-mapped ones make `layered` spotty, since it compares
     // them with the depth buffer: leave them out there (standard deviation on a flat wall .0043 reconstructed, .0120 smooth).
     ImageView normals;
-    NormalKind normalKind = NormalKind::eye;
-    NormalEncoding normalEncoding = NormalEncoding::signedFloat;
+    NormalKind normalKind = NormalKind::eye;                      // the space of `normals`
+    NormalEncoding normalEncoding = NormalEncoding::signedFloat;  // how a texel of `normals` holds a vector
     ImageView motion;  // optional, for the parameter `temporal`: two floats, sampled usage; where each pixel's surface was last frame
     float motionScale[2] = {1, 1};  // motion * motionScale = px from this pixel to last frame's position, y down. Motion in UV:
                                     // {width, height}; in NDC with y up: {width / 2, -height / 2}; pointing from last frame to this:
@@ -254,8 +257,8 @@ OBSCURA_API uint64_t memoryUse(const Context* context) noexcept;  // bytes of de
 OBSCURA_API uint64_t memoryUse(Context* context, const Frame& frame) noexcept;
 
 struct PassTime {
-    const char* name;
-    double milliseconds;
+    const char* name;     // "hbao.horizons"
+    double milliseconds;  // on the GPU
 };
 // Of the newest frame that the GPU has finished. Owned by the context, valid until the next record().
 OBSCURA_API List<PassTime> timings(Context* context) noexcept;
