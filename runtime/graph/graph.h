@@ -1,6 +1,5 @@
-// The recording of one frame: images, buffers and passes are descriptions, declared in execution order. Declaring changes nothing outside
-// the graph, so a frame may be declared to ask a question (how much memory?) and thrown away. executor.h runs it.
-//
+// The recording of one frame: descriptions of images, buffers and passes, in execution order. Declaring changes nothing outside the graph,
+// so a frame may be declared to ask a question (how much memory?) and thrown away. executor.h runs it:
 //     graph.begin();
 //     ImageId depth = graph.image("depth", {VK_FORMAT_R32_SFLOAT, w, h});
 //     graph.pass("linearize", m_linearize).read(device).write(depth).constants(c).dispatch(w, h);
@@ -20,9 +19,8 @@
 namespace obscura::graph {
 
 class Executor;
-
-// An image that outlives a frame: two copies, last frame's to read and this frame's to write. Owned by whoever needs the history; a change
-// of description invalidates it. Changed by the executor alone, when a frame that uses it has been recorded, and by invalidate().
+// An image that outlives a frame: two copies, last frame's to read and this frame's to write. Owned by its user. A change of description
+// invalidates it; else only the executor changes it, when a frame has been recorded.
 class History {
 public:
     void invalidate() { m_valid = false; }
@@ -95,11 +93,11 @@ public:
 private:
     friend class Pass;
     friend class Executor;
-    struct Handles {
+    struct Handles {  // of imported resources
         VkImage image;
         VkImageView view;
         ExternalBuffer buffer;
-    };  // of imported resources
+    };
     struct HistoryUse {
         History* history;
         uint32_t previous, current;

@@ -109,8 +109,7 @@ constexpr VkBufferUsageFlags kUploadUsage =
 constexpr VkBufferUsageFlags kPoolBufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 
-// Device memory of the pool, the histories, and the uploads of all frames in flight. What an image or a buffer takes is the device's to
-// say.
+// Device memory of the pool, the histories, and the uploads of all frames in flight. The device tells what an image or a buffer takes.
 struct MemoryOf {
     std::function<uint64_t(const gpu::ImageDesc&)> image;
     std::function<uint64_t(uint64_t bytes, VkBufferUsageFlags usage, gpu::Memory memory)> buffer;
