@@ -21,12 +21,12 @@ public:
     gpu::Status execute(Graph& graph, VkCommandBuffer cmd);
 
     void setTiming(bool on) { m_timing = on; }
-    // Of the newest frame whose timestamps have arrived; looks for those of the frame that this device frame takes the place of.
+    // Of the newest frame whose timestamps have arrived. Before execute(), reads those of the frame whose slot this frame reuses.
     const Timings& timings();
     std::optional<uint64_t> lastFrame() const { return m_lastFrame; }  // device frame number of the last one recorded
     const Plan& plan() const { return m_plan; }                        // of the last one recorded
 
-    // Device memory: of the pools; in use by the last frame (pools, histories, buffers from outside).
+    // Bytes of device memory: of the pools; used by the last frame (pools, histories, uploads, imported buffers, each once).
     uint64_t poolBytes() const;
     uint64_t frameBytes() const;
     // Device memory that an executor comes to hold for frames declared like this one: pools, histories, uploads of all frames in flight.
