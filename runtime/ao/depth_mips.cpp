@@ -1,5 +1,7 @@
 #include "ao/depth_mips.h"
 
+#include "ao/common/constants.h"
+
 namespace obscura::ao {
 
 Status DepthMips::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Filter filter, DepthMips& out) {
@@ -16,11 +18,10 @@ gpu::ImageDesc DepthMips::desc(VkFormat format, shared::uvec2 size) {
 graph::ImageId DepthMips::add(graph::Graph& graph, const Inputs& inputs, const char* passName, float range, float fade) {
     const shared::uvec2 size = inputs.view.size;
     const graph::ImageId mips = graph.image(passName, desc(VK_FORMAT_R32_SFLOAT, size));
-    const float constants[] = {range, fade};
     graph.pass(passName, m_reduce)
         .read(inputs.depth)
         .write(mips)
-        .constants(constants)
+        .constants(shared::DepthMips{range, fade})
         .dispatch((size.x + 15) / 16 * 8, (size.y + 15) / 16 * 8);
     return mips;
 }

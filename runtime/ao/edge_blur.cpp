@@ -1,5 +1,7 @@
 #include "ao/edge_blur.h"
 
+#include "ao/common/constants.h"
+
 namespace obscura::ao {
 namespace {
 constexpr float kCentre = 1.2f, kOff = 1e4f;  // weight of the pixel itself: as published; so large that neighbours do not count
@@ -21,7 +23,7 @@ graph::ImageId EdgeBlur::add(graph::Graph& graph, graph::ImageId noisy, bool on,
             .read(noisy)
             .write(intermediate)
             .write(visibility)
-            .constants(on ? kCentre : kOff)
+            .constants(shared::EdgeBlur{on ? kCentre : kOff})
             .dispatch(width, height);
         noisy = intermediate;
     }

@@ -1,5 +1,7 @@
 #include "ao/interleave.h"
 
+#include "ao/common/constants.h"
+
 namespace obscura::ao {
 
 uint32_t tileSide(const Values& values) { return values.count(kInterleave.id) + 1; }
@@ -16,36 +18,32 @@ Status Gather::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Ga
     return made ? Status::ok : Status::shaderError;
 }
 
-graph::ImageId Gather::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, uint32_t side, graph::ImageId open) {
+graph::ImageId Gather::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId shares, uint32_t side, graph::ImageId open) {
     const shared::uvec2 size = inputs.view.visible;
-    const graph::ImageId result = graph.image("resolve.gather", {VK_FORMAT_R16_SFLOAT, size.x, size.y});
-    graph.pass("resolve.gather", open ? m_weighted : m_equal)
+    const graph::ImageId result = graph.image("interleave.gather", {VK_FORMAT_R16_SFLOAT, size.x, size.y});
+    graph.pass("interleave.gather", open ? m_weighted : m_equal)
         .read(inputs.viewBlock)
         .read(inputs.depth)
         .read(inputs.normals)
-        .read(parts)
-        .read(open ? open : parts)
+        .read(shares)
+        .read(open ? open : shares)
         .write(result)
-        .constants(side)
+        .constants(shared::Gather{side})
         .dispatch(size.x, size.y);
     return result;
 }
 
 graph::ImageId Gather::addMap(
-    graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, graph::ImageId receivers, uint32_t scale, uint32_t side) {
-    const struct {
-        uint32_t side;
-        float scale;
-    } constants{side, float(scale)};
-    const graph::ImageId result = graph.image("resolve.gather", graph.desc(parts));
-    graph.pass("resolve.gather", m_map)
+    graph::Graph& graph, const Inputs& inputs, graph::ImageId shares, graph::ImageId receivers, uint32_t scale, uint32_t side) {
+    const graph::ImageId result = graph.image("interleave.gather", graph.desc(shares));
+    graph.pass("interleave.gather", m_map)
         .read(inputs.viewBlock)
         .read(receivers)
-        .read(parts)
-        .read(parts)
+        .read(shares)
+        .read(shares)
         .write(result)
-        .constants(constants)
-        .dispatch(graph.desc(parts).width, graph.desc(parts).height);
+        .constants(shared::GatherMap{side, float(scale)})
+        .dispatch(graph.desc(shares).width, graph.desc(shares).height);
     return result;
 }
 

@@ -17,12 +17,12 @@ uint32_t sharedOut(uint32_t directions, uint32_t side);  // rounded up, so that 
 class Gather {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Gather& out);
-    // parts: visibility of each pixel's share, R16F, visible size. With `open`, RG16F (weight x obscurance, weight), whose mean is taken
+    // shares: visibility of each pixel's share, R16F, visible size. With `open`, RG16F (weight x obscurance, weight), whose mean is taken
     // off that visibility. Returns visibility, R16F.
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, uint32_t side, graph::ImageId open = {});
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, graph::ImageId shares, uint32_t side, graph::ImageId open = {});
     // The same over a map (upsample.h) of visibility, its receivers and how many of the picture's pixels one of its stands for, each way.
     graph::ImageId addMap(
-        graph::Graph& graph, const Inputs& inputs, graph::ImageId parts, graph::ImageId receivers, uint32_t scale, uint32_t side);
+        graph::Graph& graph, const Inputs& inputs, graph::ImageId shares, graph::ImageId receivers, uint32_t scale, uint32_t side);
 
 private:
     gpu::Program m_equal, m_weighted, m_map;

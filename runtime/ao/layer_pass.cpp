@@ -5,9 +5,9 @@
 namespace obscura::ao {
 
 Status LayerPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayerPass& out) {
-    gpu::Status status = gpu::Program::compute(device, shaders, "ao/common/spans_one.comp", {{0, 1}}, out.m_packFirst);
+    gpu::Status status = gpu::Program::compute(device, shaders, "ao/common/pack_layers.comp:ONE_LAYER", {{0, 1}}, out.m_packFirst);
     for (uint32_t layers = 1; layers < 3 && status == gpu::Status::ok; ++layers)
-        status = gpu::Program::compute(device, shaders, "ao/common/spans.comp", {{0, layers}}, out.m_packTwo[layers - 1]);
+        status = gpu::Program::compute(device, shaders, "ao/common/pack_layers.comp", {{0, layers}}, out.m_packTwo[layers - 1]);
     return status == gpu::Status::ok ? Status::ok : Status::shaderError;
 }
 
@@ -22,8 +22,8 @@ graph::ImageId LayerPass::add(graph::Graph& graph, const Inputs& inputs, float s
     const bool one = layers == Layers::one;
     const gpu::ImageDesc desc = DepthMips::desc(one ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT, inputs.view.size);
     const LayerPackInputs packing = layerPackInputs(graph, inputs, sheet, one);
-    const graph::ImageId result = graph.image("spans", desc);
-    graph.pass("spans", one ? m_packFirst : m_packTwo[packing.layerCount - 1])
+    const graph::ImageId result = graph.image("packed layers", desc);
+    graph.pass("pack layers", one ? m_packFirst : m_packTwo[packing.layerCount - 1])
         .read(inputs.viewBlock)
         .read(inputs.depth)
         .read(inputs.normals)

@@ -2,6 +2,7 @@
 // of the view ray. The pass also gives open sheets a thickness and assigns a second layer of half size to whole pixels at edges.
 #pragma once
 
+#include "ao/common/constants.h"
 #include "ao/method.h"
 
 namespace obscura::ao {
@@ -10,20 +11,21 @@ class LayerPass {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayerPass& out);
     // Returns two layers a texel, R32G32B32A32_UINT, or the first alone, R32G32_UINT: view.size and coarser levels beside it; layout:
-    // shaders/ao/common/spans.glsl. `sheet`: thickness of surfaces that no back face follows, metres. Needs inputs.layers.thickness.
+    // shaders/ao/common/packed_layers.glsl. `sheet`: thickness of surfaces that no back face follows, metres. Needs inputs.layers.thickness.
     enum class Layers : uint8_t { one, two };
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, float sheet, Layers layers = Layers::two);
+    // Two layers if the frame has depth layers, for methods in which they are optional; else nothing.
+    graph::ImageId addIfGiven(graph::Graph& graph, const Inputs& inputs, const Values& values) {
+        return inputs.layers.thickness ? add(graph, inputs, values["sheet"]) : graph::ImageId{};
+    }
 
 private:
     gpu::Program m_packFirst, m_packTwo[2];  // [layers in the frame - 1]
 };
 
-// Images and first constants that spans_at.glsl reads. Needs inputs.layers.thickness.
+// Images and first constants that layers_at.glsl reads. Needs inputs.layers.thickness.
 struct LayerPackInputs {
-    struct Constants {
-        float sheet;
-        uint32_t shift;
-    } constants;                       // GLSL: Packing. Metres; 1 if the second layer is of half size, else 0
+    shared::PackLayers constants;
     graph::ImageId thickness, second;  // without a second layer, `second` is `thickness`
     uint32_t layerCount;               // 1 or 2
 };

@@ -1,5 +1,5 @@
-// A method: a table (MethodInfo) and an object that adds its passes to a graph. To write one, read methods/volumetric.cpp, add a file
-// beside it, a folder of shaders and one line in registry.cpp.
+// A method: a table (MethodInfo) and an object that adds its passes to a graph. To write one, read
+// methods/volumetric and "Adding a method" in the README.
 #pragma once
 
 #include <limits>
@@ -73,8 +73,6 @@ struct MethodEntry {
     uint32_t (*needs)(const Values& values) = nullptr;
 };
 std::span<const MethodEntry> registry();
-
-// Needs of a method with these settings: a renderer asks before it makes motion, layers or a volume.
 
 // Adds a pass that sets visibility 1 everywhere; R16F, `visible` in size.
 graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible, const char* passName);

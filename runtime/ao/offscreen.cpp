@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "ao/offscreen/constants.h"
+
 namespace obscura::ao {
 namespace {
-
-struct Trace {  // trace.comp
-    shared::FalloffBlock falloff;
-    uint32_t rays;
-    float stride;
-    uint32_t scale, hidden;
-    float offset, grain, reach, thickness;
-};
 
 constexpr uint32_t kScale = 2;      // a map of a quarter of the pixels
 constexpr float kOffset = 2.0f;     // cells; the cells that touch a plane end sqrt(3) above it
@@ -26,11 +20,12 @@ constexpr float kFarthest = 1e18f;  // its square fits in a float
 Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out) {
     if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {}, out.m_trace[0]) != gpu::Status::ok)
         return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb.comp", {}, out.m_trace[1]) != gpu::Status::ok)
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp:VOLUME_NANOVDB", {}, out.m_trace[1]) != gpu::Status::ok)
         return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_layers.comp", {}, out.m_layered[0]) != gpu::Status::ok)
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp:DEPTH_LAYERS", {}, out.m_layered[0]) != gpu::Status::ok)
         return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace_nanovdb_layers.comp", {}, out.m_layered[1]) != gpu::Status::ok)
+    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp:VOLUME_NANOVDB,DEPTH_LAYERS", {}, out.m_layered[1]) !=
+        gpu::Status::ok)
         return Status::shaderError;
     if (LayerPass::create(device, shaders, out.m_layerPass) != Status::ok) return Status::shaderError;
     return Upsample::create(device, shaders, out.m_upsample);
@@ -49,8 +44,8 @@ graph::ImageId OffScreenPass::add(
     const uint32_t width = (visible.x + kScale - 1) / kScale, height = (visible.y + kScale - 1) / kScale;
     const graph::ImageId map = graph.image("offscreen.map", {VK_FORMAT_R16_SFLOAT, width, height});
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
-    const Trace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain,
-        std::min(blocking.reach, kFarthest), blocking.thickness};
+    const shared::OffscreenTrace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u,
+        kOffset, kGrain, std::min(blocking.reach, kFarthest), blocking.thickness};
     const graph::ImageId layers = blocking.sheet >= 0.0f ? m_layerPass.add(graph, inputs, blocking.sheet) : graph::ImageId{};
     graph::Pass& pass = graph.pass("offscreen.trace", (layers ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
     pass.read(inputs.viewBlock)

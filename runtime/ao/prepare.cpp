@@ -1,20 +1,15 @@
 #include "ao/prepare.h"
 
-#include <cstring>
+#include "ao/common/constants.h"
 
 namespace obscura::ao {
 namespace {
 
-struct NormalConstants {
-    float rows[3][4];   // eye from source, w unused
-    uint32_t encoding;  // NormalEncoding
-};
-
-NormalConstants normalConstants(const Frame& frame) {
-    NormalConstants result{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, uint32_t(frame.normalEncoding)};
+shared::ConvertNormals normalConstants(const Frame& frame) {
+    shared::ConvertNormals result{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, uint32_t(frame.normalEncoding), {}};
+    const float* m = frame.eyeFromWorld;
     if (frame.normalKind == NormalKind::world)
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 3; ++column) result.rows[row][column] = frame.eyeFromWorld[column * 4 + row];
+        for (int row = 0; row < 3; ++row) result.rows[row] = {m[row], m[4 + row], m[8 + row], 0};
     return result;
 }
 
@@ -46,12 +41,11 @@ Inputs Prepare::add(graph::Graph& graph, const Frame& frame, const shared::View&
         return inputs;
     }
     inputs.depth = graph.image("linear depth", {VK_FORMAT_R32_SFLOAT, view.size.x, view.size.y});
-    const uint32_t linear = frame.depthKind == DepthKind::linear ? 1 : 0;
     graph.pass("prepare.depth", m_linearize)
         .read(inputs.viewBlock)
         .read(sources.depth)
         .write(inputs.depth)
-        .constants(linear)
+        .constants(shared::Linearize{frame.depthKind == DepthKind::linear ? 1u : 0u})
         .dispatch(view.size.x, view.size.y);
 
     if (sources.packed) {

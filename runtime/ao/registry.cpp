@@ -1,4 +1,4 @@
-// All methods, in the order of keys and menus. A new one is a line in each of the two lists.
+// All methods, in the order of keys and menus: that of the lines obscura_method(id) in CMakeLists.txt, of which methods.inc is made.
 #include <cstring>
 #include <iterator>
 
@@ -7,20 +7,12 @@
 
 namespace obscura::ao {
 
-MethodEntry noneEntry();
-MethodEntry hbaoEntry();
-MethodEntry horizonSplitEntry();
-MethodEntry multiResolutionEntry();
-MethodEntry statisticalEntry();
-MethodEntry farFieldEntry();
-MethodEntry mipmapEntry();
-MethodEntry hybridEntry();
-MethodEntry layeredEntry();
-MethodEntry gtaoEntry();
-MethodEntry visibilityBitmaskEntry();
-MethodEntry ssaoEntry();
-MethodEntry volumetricEntry();
-MethodEntry scalableEntry();
+#define OBSCURA_METHOD(id) \
+    namespace id {         \
+    MethodEntry entry();   \
+    }
+#include "methods.inc"
+#undef OBSCURA_METHOD
 
 namespace {
 
@@ -73,9 +65,11 @@ struct Composed {
 
 std::span<const MethodEntry> registry() {
     static const std::vector<MethodEntry> kEntries = [] {
-        std::vector<MethodEntry> entries{noneEntry(), hbaoEntry(), horizonSplitEntry(), multiResolutionEntry(), statisticalEntry(),
-            farFieldEntry(), mipmapEntry(), hybridEntry(), layeredEntry(), gtaoEntry(), visibilityBitmaskEntry(), ssaoEntry(),
-            volumetricEntry(), scalableEntry()};
+        std::vector<MethodEntry> entries{
+#define OBSCURA_METHOD(id) id::entry(),
+#include "methods.inc"
+#undef OBSCURA_METHOD
+        };
         static std::vector<std::unique_ptr<Composed>> composed;
         for (MethodEntry& entry : entries) entry.info = &composed.emplace_back(std::make_unique<Composed>(*entry.info))->info;
         return entries;

@@ -2,19 +2,9 @@
 
 #include <cassert>
 
+#include "ao/common/constants.h"
+
 namespace obscura::ao {
-namespace {
-
-struct RowConstants {
-    shared::uvec2 size;
-    uint32_t layers, masked;
-    uint32_t masks[SummedArea::kMostLayers], values[SummedArea::kMostLayers];
-};
-struct ColumnConstants {
-    uint32_t columns, rows;
-};
-
-}  // namespace
 
 Status SummedArea::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, SummedArea& out, uint32_t blocks) {
     if (blocks == 0) blocks = device.caps().software ? 1 : 16;
@@ -35,14 +25,16 @@ void SummedArea::add(graph::Graph& graph, const std::string& name, graph::Buffer
 void SummedArea::add(graph::Graph& graph, const std::string& name, graph::BufferId texels, graph::BufferId codes, graph::BufferId table,
     shared::uvec2 size, std::span<const Layer> layers) {
     assert(!layers.empty() && layers.size() <= kMostLayers);
-    RowConstants rows{size, uint32_t(layers.size()), 0, {}, {}};
+    shared::SumRows rows{size, uint32_t(layers.size()), 0, {}, {}};
+    uint32_t *masks[] = {&rows.masks.x, &rows.masks.y, &rows.masks.z, &rows.masks.w},
+             *values[] = {&rows.values.x, &rows.values.y, &rows.values.z, &rows.values.w};
     for (size_t i = 0; i < layers.size(); ++i) {
-        rows.masks[i] = layers[i].mask;
-        rows.values[i] = layers[i].value;
+        *masks[i] = layers[i].mask;
+        *values[i] = layers[i].value;
         rows.masked |= layers[i].mask;
     }
     graph.pass(name + " rows", m_rows).read(texels).read(codes).write(table).constants(rows).dispatch(size.y, 1, rows.layers);
-    const ColumnConstants columns{(size.x + 1) * rows.layers, size.y};
+    const shared::SumColumns columns{(size.x + 1) * rows.layers, size.y};
     graph.pass(name + " columns", m_columns).write(table).constants(columns).dispatch(columns.columns);
 }
 

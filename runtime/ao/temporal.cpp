@@ -1,19 +1,12 @@
 #include "ao/temporal.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
+#include "ao/common/constants.h"
+
 namespace obscura::ao {
-namespace {
-
-struct Reprojection {  // temporal.comp
-    float previousFromEye[12];
-    float motionScale[2];
-    float history, depthTolerance, normalTolerance, clip, clipFloor;
-    uint32_t valid;
-};
-
-}  // namespace
 
 Status Temporal::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Temporal& out) {
     return gpu::Program::compute(device, shaders, "ao/common/temporal.comp", {}, out.m_reproject) == gpu::Status::ok ? Status::ok
@@ -27,10 +20,11 @@ graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::I
         return visibility;
     }
     const shared::uvec2 size = inputs.view.visible;
-    const auto history = graph.history(std::string(passName) + " past", {VK_FORMAT_R32G32_UINT, size.x, size.y}, m_history, discard);
-    Reprojection constants{};
-    std::copy_n(inputs.previousFromEye, 12, constants.previousFromEye);
-    std::copy_n(inputs.motionScale, 2, constants.motionScale);
+    const auto history = graph.history(std::string(passName) + " history", {VK_FORMAT_R32G32_UINT, size.x, size.y}, m_history, discard);
+    shared::Reproject constants{};
+    static_assert(sizeof(constants.previousFromEye) == sizeof(inputs.previousFromEye));
+    std::memcpy(constants.previousFromEye, inputs.previousFromEye, sizeof(inputs.previousFromEye));
+    constants.motionScale = {inputs.motionScale[0], inputs.motionScale[1]};
     constants.history = std::min(settings.history, 0.98f);
     constants.depthTolerance = settings.depthTolerance;
     constants.normalTolerance = settings.normalTolerance;

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "ao/common/constants.h"
+
 namespace obscura::ao {
 
 Status Upsample::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Upsample& out) {
@@ -16,10 +18,7 @@ Status Upsample::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, 
 
 graph::ImageId Upsample::add(
     graph::Graph& graph, const Inputs& inputs, const Map& map, const UpsampleSettings& settings, const char* prefix, graph::ImageId other) {
-    const struct {
-        int32_t scale;
-        float window, range;
-    } constants{int32_t(settings.scale), settings.window, settings.range};
+    const shared::Upsample constants{int32_t(settings.scale), settings.window, settings.range};
     const auto& visible = inputs.view.visible;
     const uint32_t height = graph.desc(map.visibility).height;
     const std::string name = prefix;

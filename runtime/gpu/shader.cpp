@@ -165,7 +165,7 @@ void ShaderLibrary::watch(const fs::path& root, CompileShader compile) {
     FileStates states;
     for (auto& [name, entry] : m_entries) {
         entry.files.clear();
-        collectFiles((root / name).lexically_normal(), root, entry.files);
+        collectFiles((root / shaderFile(name)).lexically_normal(), root, entry.files);
         const FileState now = states.of(entry.files);
         entry.stamp = now.time;
         entry.bytes = now.bytes;
@@ -186,7 +186,7 @@ bool ShaderLibrary::poll() {
         std::string error;
         std::vector<fs::path> read;
         const fs::path main = entry.files.front();
-        const bool good = m_compile(main, m_root, compiled, error, read);
+        const bool good = m_compile(m_root, name, compiled, error, read);
         // After a failure what was known stays watched: the repair may be in a file the compiler did not get to.
         if (good) entry.files = {main};
         for (const fs::path& file : read)

@@ -1,5 +1,6 @@
 // Shader code and its reflection. SPIR-V and its reflection are made at build time by obscura-compile-shaders and
-// embedded; a ShaderLibrary finds them by name ("ao/hbao/horizons.comp") and swaps them when a source file is edited.
+// embedded; a ShaderLibrary finds them by name and swaps them when a source file is edited. A name is the file's path below the shaders
+// folder and, for a variant, the macros that it is compiled with: "ao/hbao/horizons.comp", "ao/hbao/horizons.comp:DEPTH_LAYERS".
 #pragma once
 
 #include <array>
@@ -44,10 +45,12 @@ struct EmbeddedShader {
 std::string describe(const Shader& shader);              // one line of text
 bool undescribe(std::string_view text, Shader& shader);  // false if malformed
 
-// Compiles GLSL; on failure returns false and puts file, line and message in `error`. Implemented by runtime/gpu/compiler, so
-// that programs which only run embedded shaders need not link glslang. `dependencies` receives every file read.
-using CompileShader = std::function<bool(const std::filesystem::path& file, const std::filesystem::path& root, Shader& out,
-    std::string& error, std::vector<std::filesystem::path>& dependencies)>;
+inline std::string_view shaderFile(std::string_view name) { return name.substr(0, name.find(':')); }
+
+// Compiles the GLSL shader of that name below `root`; on failure returns false and puts file, line and message in `error`. Implemented by
+// runtime/gpu/compiler, so that programs which only run embedded shaders need not link glslang. `dependencies` receives every file read.
+using CompileShader = std::function<bool(const std::filesystem::path& root, std::string_view name, Shader& out, std::string& error,
+    std::vector<std::filesystem::path>& dependencies)>;
 
 class ShaderLibrary {
 public:

@@ -39,14 +39,13 @@ Status LayersPass::createPair(gpu::Device& device, const gpu::ShaderLibrary& sha
     std::initializer_list<gpu::Constant> constants, Pair& out) {
     state.vertexBindings = {{0, kPositionBytes, VK_VERTEX_INPUT_RATE_VERTEX}};
     state.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
-    const Status status = gpu::Program::graphics(
-        device, shaders, "scene/layers/place.vert", "scene/layers/" + fragment + ".frag", state, constants, out.solid);
+    const Status status = gpu::Program::graphics(device, shaders, "scene/layers/place.vert", fragment, state, constants, out.solid);
     if (status != Status::ok) return status;
     state.vertexBindings.push_back({1, kCoordsBytes, VK_VERTEX_INPUT_RATE_VERTEX});
     state.vertexAttributes.push_back({1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
     state.vertexAttributes.push_back({2, 1, VK_FORMAT_R16G16B16A16_SFLOAT, 16});
-    return gpu::Program::graphics(
-        device, shaders, "scene/layers/place_masked.vert", "scene/layers/" + fragment + "_masked.frag", state, constants, out.masked);
+    return gpu::Program::graphics(device, shaders, "scene/layers/place.vert:MASKED",
+        fragment + (fragment.ends_with("frag") ? ":MASKED" : ",MASKED"), state, constants, out.masked);
 }
 
 Status LayersPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayersPass& out) {
@@ -54,16 +53,16 @@ Status LayersPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders
     peel.colorFormats = {kHit};
     peel.depthFormat = kDepth;
     peel.depthTest = peel.depthWrite = true;
-    Status status = createPair(device, shaders, "peel", peel, {}, out.m_peel);
+    Status status = createPair(device, shaders, "scene/layers/peel.frag", peel, {}, out.m_peel);
     for (uint32_t first = 0; first < 2 && status == Status::ok; ++first)
-        status = createPair(device, shaders, "peel_on", peel, {{0, first}}, out.m_peelOn[first]);
+        status = createPair(device, shaders, "scene/layers/peel.frag:WHOLE_HITS", peel, {{0, first}}, out.m_peelOn[first]);
     out.m_canWrite = device.caps().fragmentWrites;
     if (status == Status::ok && out.m_canWrite) {
         gpu::GraphicsState ladder;
         ladder.depthFormat = kDepth;
         ladder.depthTest = true;
         ladder.depthCompare = VK_COMPARE_OP_LESS;  // reversed depth: behind the visible surface
-        status = createPair(device, shaders, "ladder", ladder, {}, out.m_ladder);
+        status = createPair(device, shaders, "scene/layers/ladder.frag", ladder, {}, out.m_ladder);
     }
     return status == Status::ok ? gpu::Program::compute(device, shaders, "scene/layers/resolve.comp", {}, out.m_resolve) : status;
 }

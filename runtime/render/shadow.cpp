@@ -71,7 +71,7 @@ Status Shadow::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Sh
     state.vertexBindings.push_back({1, kCoordsBytes, VK_VERTEX_INPUT_RATE_VERTEX});
     state.vertexAttributes.push_back({1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
     state.vertexAttributes.push_back({2, 1, VK_FORMAT_R16G16B16A16_SFLOAT, 16});
-    return gpu::Program::graphics(device, shaders, "scene/shadow_masked.vert", "scene/shadow_masked.frag", state, {}, out.m_masked);
+    return gpu::Program::graphics(device, shaders, "scene/shadow.vert:MASKED", "scene/shadow_masked.frag", state, {}, out.m_masked);
 }
 
 // Sorts draws so that instances merge; appends their items to m_items.

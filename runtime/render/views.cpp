@@ -162,7 +162,7 @@ graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao
     // Created at first use: drivers compile the NanoVDB shader longer than all others together.
     const bool tree = volume.structure != ao::VolumeStructure::dense;
     gpu::Program& program = m_voxels[tree];
-    const char* shader = tree ? "voxel/view_nanovdb.comp" : "voxel/view.comp";
+    const char* shader = tree ? "voxel/view.comp:VOLUME_NANOVDB" : "voxel/view.comp";
     if (!program && gpu::Program::compute(graph.device(), *m_shaders, shader, {}, program) != gpu::Status::ok) return {};
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, frame.visible.x, frame.visible.y});
     graph.pass("voxels.view", program)

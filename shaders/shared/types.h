@@ -7,11 +7,11 @@
 #include <cstdint>
 namespace obscura::shared {
 using uint = uint32_t;
-struct vec2 { float x, y; };
-struct vec4 { float x, y, z, w; };
-struct uvec2 { uint32_t x, y; };
-struct uvec4 { uint32_t x, y, z, w; };
-struct ivec2 { int32_t x, y; };
+struct alignas(8) vec2 { float x, y; };
+struct alignas(16) vec4 { float x, y, z, w; };
+struct alignas(8) uvec2 { uint32_t x, y; };
+struct alignas(16) uvec4 { uint32_t x, y, z, w; };
+struct alignas(8) ivec2 { int32_t x, y; };
 struct mat4 { float m[16]; };  // columns
 }  // namespace obscura::shared
 #define OBSCURA_SHARED_BEGIN namespace obscura::shared {

@@ -122,7 +122,7 @@ TEST_P(InterleavedMethod, isNearTheUninterleavedResult) {
     for (const float tile : {1.0f, 2.0f, 3.0f}) {
         settings.set("interleave", tile);
         const Picture shared = run(room, settings, "quadratic:2");
-        EXPECT_TRUE(m_passes.count("resolve.gather"));
+        EXPECT_TRUE(m_passes.count("interleave.gather"));
         double apart = 0.0;
         for (size_t i = 0; i < alone.size(); ++i) apart += std::fabs(shared[i] - alone[i]);
         const bool map = GetParam() == std::string("hybrid");  // the map is small here, and a share has one or two rays

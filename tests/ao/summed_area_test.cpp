@@ -147,7 +147,7 @@ void main() { scanLines(gl_GlobalInvocationID.x, count, gl_GlobalInvocationID.x 
     gpu::Shader shader;
     std::string error;
     std::vector<std::filesystem::path> files;
-    ASSERT_TRUE(gpu::compileShader(file, root, shader, error, files)) << error;
+    ASSERT_TRUE(gpu::compileShader(root, file.string(), shader, error, files)) << error;
     const std::string reflection = describe(shader);
     const gpu::EmbeddedShader embedded{"count.comp", shader.spirv, reflection.c_str()};
     m_shaders.add({&embedded, 1});

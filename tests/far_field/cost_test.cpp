@@ -2,7 +2,7 @@
 //     obscura-bench --scene atrium --method far_field --falloff exponential:0.25,exponential:100,wendland:2,constant:1,ramp:0.385:1
 #include <cstddef>
 
-#include "ao/methods/falloff_table.h"
+#include "ao/falloff_table.h"
 #include "far_field/fixture.h"
 #include "gpu/vulkan_counter.h"
 

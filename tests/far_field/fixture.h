@@ -1,9 +1,9 @@
 // Fixture of far_field and mipmap: analytic planes and a crease.
 #pragma once
 
+#include "ao/falloff_table.h"
 #include "ao/method_test.h"
-#include "ao/methods/falloff_table.h"
-#include "ao/methods/far_field_grid.h"
+#include "ao/methods/far_field/grid.h"
 
 namespace obscura::test {
 

@@ -50,7 +50,9 @@ struct Pixels {
 void check(const std::string& method, const std::string& view) {
     const fs::path golden = kFolder / (method + "." + view + ".png");
     const fs::path made = fs::path(testing::TempDir()) / ("obscura-golden-" + method + "-" + view + ".png");
-    const bool renew = std::getenv("OBSCURA_RENEW_GOLDEN") != nullptr;
+    const char* renewed = std::getenv("OBSCURA_RENEW_GOLDEN");  // methods, with commas, or "all"
+    const std::string list = renewed ? "," + std::string(renewed) + "," : "";
+    const bool renew = list == ",all," || list.find("," + method + ",") != list.npos;
     const fs::path target = renew ? golden : made;
     fs::remove(made);
     const std::string command = obscura::test::shellCommand(
@@ -60,7 +62,7 @@ void check(const std::string& method, const std::string& view) {
     ASSERT_EQ(ended.code, 0) << command << "\n" << ended.error;
     const Pixels now(target), then(golden);
     ASSERT_TRUE(now.rgb) << target;
-    ASSERT_TRUE(then.rgb) << golden << " is missing: run tests/golden/renew, review it, commit it";
+    ASSERT_TRUE(then.rgb) << golden << " is missing: run tools/renew " << method << ", review it, commit it";
     ASSERT_EQ(now.width, then.width);
     ASSERT_EQ(now.height, then.height);
     const size_t count = size_t(now.width) * size_t(now.height);

@@ -48,7 +48,7 @@ TEST(ShaderCompiler, NamesEveryFileItRead) {
     Shader shader;
     std::string error;
     std::vector<std::filesystem::path> files;
-    ASSERT_TRUE(compileShader(shaders.root() / "ao/everything.comp", shaders.root(), shader, error, files)) << error;
+    ASSERT_TRUE(compileShader(shaders.root(), "ao/everything.comp", shader, error, files)) << error;
     const std::vector<std::filesystem::path> expected{
         shaders.root() / "ao/everything.comp", shaders.root() / "shared/terms.h", shaders.root() / "ao/local.glsl"};
     ASSERT_EQ(files.size(), expected.size());
@@ -117,6 +117,51 @@ TEST(ShaderCompiler, StrippedCodeIsSmallerAndValid) {
     EXPECT_EQ(again.workgroup, shader.workgroup);
 }
 
+constexpr const char* kVariants =
+    "#version 460\n"
+    "#pragma variant TWICE\n"
+    "#pragma variant TWICE,FACTOR=3.0\r\n"
+    "layout(local_size_x = 1) in;\n"
+    "layout(binding = 0) buffer B { float b; };\n"
+    "#ifndef FACTOR\n"
+    "#define FACTOR 1.0\n"
+    "#endif\n"
+    "void main() {\n"
+    "#ifdef TWICE\n"
+    "    b = FACTOR * 2.0;\n"
+    "#else\n"
+    "    b = FACTOR;\n"
+    "#endif\n"
+    "}\n";
+
+TEST(ShaderCompiler, variantsAreNamedByTheFileAndCompiledWithTheirMacros) {
+    test::TestShaders shaders;
+    shaders.write("ao/many.comp", kVariants);
+    const std::vector<std::string> expected{"ao/many.comp", "ao/many.comp:TWICE", "ao/many.comp:TWICE,FACTOR=3.0"};
+    EXPECT_EQ(variantsOf(shaders.root(), "ao/many.comp"), expected);
+    const std::string text = kVariants;
+    const auto withMacros = [&](const std::string& macros) {  // the same, with the macros written into the file
+        shaders.write("ao/plain.comp", "#version 460\n" + macros + text.substr(text.find("layout")));
+        return shaders.compile("ao/plain.comp").spirv;
+    };
+    const auto stripped = [](std::vector<uint32_t> spirv) {  // line numbers differ
+        stripDebugInfo(spirv);
+        return spirv;
+    };
+    EXPECT_EQ(stripped(shaders.compile(expected[0]).spirv), stripped(withMacros("")));
+    EXPECT_EQ(stripped(shaders.compile(expected[1]).spirv), stripped(withMacros("#define TWICE 1\n")));
+    EXPECT_EQ(stripped(shaders.compile(expected[2]).spirv), stripped(withMacros("#define TWICE 1\n#define FACTOR 3.0\n")));
+    EXPECT_NE(stripped(shaders.compile(expected[1]).spirv), stripped(shaders.compile(expected[2]).spirv));
+}
+
+TEST(ShaderCompiler, errorsOfAVariantNameIt) {
+    test::TestShaders shaders;
+    shaders.write(
+        "ao/broken.comp", "#version 460\nlayout(local_size_x = 1) in;\nvoid main() {\n#ifdef BAD\n    float a = nothing;\n#endif\n}\n");
+    shaders.compile("ao/broken.comp");
+    EXPECT_EQ(shaders.compileError("ao/broken.comp:BAD"), "shaders/ao/broken.comp:5: 'nothing' : undeclared identifier (variant BAD)");
+}
+
 TEST(ShaderCompiler, CompilesOnSeveralThreads) {
     test::TestShaders shaders;
     writeEverything(shaders);
@@ -128,7 +173,7 @@ TEST(ShaderCompiler, CompilesOnSeveralThreads) {
             Shader shader;
             std::string error;
             std::vector<std::filesystem::path> files;
-            compileShader(shaders.root() / "ao/everything.comp", shaders.root(), shader, error, files);
+            compileShader(shaders.root(), "ao/everything.comp", shader, error, files);
             result = shader.spirv;
         });
     for (std::thread& thread : threads) thread.join();
@@ -180,6 +225,26 @@ TEST(ShaderLibraryTest, FindsByNameAndReportsMalformedOnes) {
     EXPECT_FALSE(library.poll()) << "no folder is watched";
 }
 
+TEST(ShaderLibraryTest, recompilesVariantsWithTheirMacros) {
+    test::TestShaders shaders;
+    shaders.write("many.comp", kVariants);
+    for (const std::string& name : variantsOf(shaders.root(), "many.comp")) {
+        const gpu::Shader shader = shaders.compile(name);
+        const std::string reflection = describe(shader);
+        const gpu::EmbeddedShader embedded{name.c_str(), shader.spirv, reflection.c_str()};
+        shaders.library.add({&embedded, 1});
+    }
+    shaders.library.watch(shaders.root(), compileShader);
+    std::string text = kVariants;
+    text.replace(text.find("2.0"), 3, "4.0");
+    shaders.write("many.comp", text);
+    EXPECT_TRUE(shaders.library.poll());
+    EXPECT_EQ(shaders.library.generation("many.comp"), 1u) << "its code is the same";
+    EXPECT_EQ(shaders.library.generation("many.comp:TWICE"), 2u);
+    EXPECT_EQ(shaders.library.generation("many.comp:TWICE,FACTOR=3.0"), 2u);
+    EXPECT_EQ(shaders.library.find("many.comp:TWICE")->spirv, shaders.compile("many.comp:TWICE").spirv);
+}
+
 TEST(ShaderLibraryTest, RecompilesOnlyAffectedShaders) {
     test::TestShaders shaders;
     const std::string head = "#version 460\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer B { float b; };\n";
@@ -188,9 +253,9 @@ TEST(ShaderLibraryTest, RecompilesOnlyAffectedShaders) {
     shaders.add("b.comp", head + "#include \"common.glsl\"\nvoid main() { b = 2.0 * kCommon; }\n");
     shaders.add("c.comp", head + "void main() { b = 3.0; }\n");
     int compiled = 0;
-    shaders.library.watch(shaders.root(), [&](const auto& file, const auto& root, Shader& out, std::string& error, auto& files) {
+    shaders.library.watch(shaders.root(), [&](const auto& root, std::string_view name, Shader& out, std::string& error, auto& files) {
         ++compiled;
-        return compileShader(file, root, out, error, files);
+        return compileShader(root, name, out, error, files);
     });
     EXPECT_FALSE(shaders.library.poll());
     EXPECT_EQ(compiled, 0);

@@ -52,7 +52,7 @@ public:
         gpu::Shader shader;
         std::string error;
         std::vector<std::filesystem::path> files;
-        EXPECT_TRUE(gpu::compileShader(root() / name, root(), shader, error, files)) << error;
+        EXPECT_TRUE(gpu::compileShader(root(), name, shader, error, files)) << error;
         return shader;
     }
 
@@ -60,7 +60,7 @@ public:
         gpu::Shader shader;
         std::string error;
         std::vector<std::filesystem::path> files;
-        EXPECT_FALSE(gpu::compileShader(root() / name, root(), shader, error, files));
+        EXPECT_FALSE(gpu::compileShader(root(), name, shader, error, files));
         return error;
     }
 

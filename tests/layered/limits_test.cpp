@@ -20,7 +20,7 @@ TEST_F(LayeredTest, convexSolidsAreExactlyOpen) {
 TEST_F(LayeredTest, slicesCoverTheHemisphere) {
     // Slices are uniform around the view ray; directions uniform on the screen would have a mean error of 0.034 here.
     const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0.3f, 1, 0.05f}}}, 200, 120, 20);
-    m_probe = "layered.parts";
+    m_probe = "layered.shares";
     for (const auto& [slices, tolerance] :
         {std::pair{16.0f, 0.004f}, {9.0f, 0.011f}}) {  // plus half a quantization step of the stored value
         run(room, values({{"slices", slices}, {"steps", 1}}, "reference"), "ramp:0.385:1");

@@ -51,7 +51,7 @@ protected:
         gpu::Shader shader;
         std::string error;
         std::vector<std::filesystem::path> read;
-        EXPECT_TRUE(gpu::compileShader(files.root() / "lookup.comp", root, shader, error, read)) << error;
+        EXPECT_TRUE(gpu::compileShader(root, (files.root() / "lookup.comp").string(), shader, error, read)) << error;
         if (!error.empty()) return {};
         const std::string reflection = gpu::describe(shader);
         const gpu::EmbeddedShader embedded{"lookup.comp", shader.spirv, reflection.c_str()};

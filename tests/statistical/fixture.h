@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "ao/method_test.h"
-#include "ao/methods/statistical_tables.h"
+#include "ao/methods/statistical/tables.h"
 #include "ao/prepare.h"
 #include "gpu/test_shaders.h"
 #include "graph/executor.h"
@@ -83,7 +83,7 @@ void main() {
         gpu::Shader shader;
         std::string error;
         std::vector<std::filesystem::path> files;
-        ASSERT_TRUE(gpu::compileShader(file, root, shader, error, files)) << error;
+        ASSERT_TRUE(gpu::compileShader(root, file.string(), shader, error, files)) << error;
         const std::string reflection = describe(shader);
         const gpu::EmbeddedShader embedded{name.c_str(), shader.spirv, reflection.c_str()};
         m_shaders.add({&embedded, 1});

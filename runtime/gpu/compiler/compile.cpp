@@ -93,7 +93,8 @@ private:
 };
 
 // glslang writes "ERROR: name:12: 'x' : undeclared identifier " and a line that counts the errors.
-std::string messages(const std::string& log, const std::string& shown) {
+std::string messages(const std::string& log, const std::string& shown, std::string_view macros) {
+    const std::string variant = macros.empty() ? "" : fmt::format(" (variant {})", macros);
     std::string text;
     size_t start = 0;
     while (start < log.size()) {
@@ -112,18 +113,41 @@ std::string messages(const std::string& log, const std::string& shown) {
         const size_t colon = line.find(':');
         const bool placed = colon != std::string::npos && colon + 1 < line.size() && line[colon + 1] >= '0' && line[colon + 1] <= '9';
         if (!placed) line = shown + ": " + line;
-        text += (text.empty() ? "" : "\n") + line;
+        text += (text.empty() ? "" : "\n") + line + variant;
     }
-    return text.empty() ? shown + ": does not compile" : text;
+    return text.empty() ? shown + ": does not compile" + variant : text;
+}
+
+// "A,B=2" as two #define lines.
+std::string definitions(std::string_view macros) {
+    std::string text;
+    while (!macros.empty()) {
+        const std::string_view macro = macros.substr(0, macros.find(','));
+        macros.remove_prefix(std::min(macro.size() + 1, macros.size()));
+        const size_t equals = macro.find('=');
+        text += fmt::format("#define {} {}\n", macro.substr(0, equals), equals == std::string_view::npos ? "1" : macro.substr(equals + 1));
+    }
+    return text;
 }
 
 }  // namespace
 
-bool compileShader(const fs::path& given, const fs::path& givenRoot, Shader& out, std::string& error, std::vector<fs::path>& dependencies) {
+std::vector<std::string> variantsOf(const fs::path& root, const std::string& name) {
+    constexpr std::string_view kPragma = "#pragma variant ";
+    std::vector<std::string> names{name};
+    std::ifstream in(root / name);
+    for (std::string line; std::getline(in, line);)
+        if (line.starts_with(kPragma))
+            names.push_back(name + ":" + line.substr(kPragma.size(), line.find_last_not_of(" \r") + 1 - kPragma.size()));
+    return names;
+}
+
+bool compileShader(const fs::path& givenRoot, std::string_view name, Shader& out, std::string& error, std::vector<fs::path>& dependencies) {
     static const Process process;
     error.clear();
     dependencies.clear();
-    const fs::path root = absoluteOf(givenRoot), file = absoluteOf(given);
+    const std::string_view macros = name.substr(std::min(shaderFile(name).size() + 1, name.size()));
+    const fs::path root = absoluteOf(givenRoot), file = absoluteOf(givenRoot / shaderFile(name));
     Includer includer(root, dependencies);
     const std::string shown = includer.display(file);
     dependencies.push_back(file);
@@ -150,21 +174,22 @@ bool compileShader(const fs::path& given, const fs::path& givenRoot, Shader& out
     glslang::TShader shader(stage->language);
     const char* text = source.c_str();
     const int length = int(source.size());
-    const char* name = shown.c_str();
-    shader.setStringsWithLengthsAndNames(&text, &length, &name, 1);
-    shader.setPreamble("#extension GL_GOOGLE_include_directive : enable\n");
+    const char* shownName = shown.c_str();
+    shader.setStringsWithLengthsAndNames(&text, &length, &shownName, 1);
+    const std::string preamble = "#extension GL_GOOGLE_include_directive : enable\n" + definitions(macros);
+    shader.setPreamble(preamble.c_str());
     shader.setEnvInput(glslang::EShSourceGlsl, stage->language, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     constexpr auto kRules = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
     if (!shader.parse(GetDefaultResources(), 460, false, kRules, includer)) {
-        error = messages(shader.getInfoLog(), shown);
+        error = messages(shader.getInfoLog(), shown, macros);
         return false;
     }
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(kRules)) {
-        error = messages(program.getInfoLog(), shown);
+        error = messages(program.getInfoLog(), shown, macros);
         return false;
     }
     glslang::SpvOptions options;

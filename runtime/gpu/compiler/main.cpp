@@ -25,7 +25,8 @@ struct Options {
 
 constexpr const char* kUsage =
     "obscura-compile-shaders --root DIR --namespace NS --out FILE.cpp [--depfile FILE.d] [--names] SHADER...\n"
-    "Compiles shaders, named relative to DIR, into `std::span<const gpu::EmbeddedShader> obscura::NS::shaders()`.\n"
+    "Compiles shaders, named relative to DIR, into `std::span<const gpu::EmbeddedShader> obscura::NS::shaders()`; a shader with lines\n"
+    "`#pragma variant A,B=2` also once for each of them, with those macros, as SHADER:A,B=2.\n"
     "--names keeps variable names in the SPIR-V, for graphics debuggers.\n";
 
 bool parse(int argc, char** argv, Options& options) {
@@ -110,6 +111,10 @@ int main(int argc, char** argv) {
         std::fputs(kUsage, stderr);
         return 2;
     }
+    std::vector<std::string> names;
+    for (const std::string& name : options.names)
+        for (std::string& variant : obscura::gpu::variantsOf(options.root, name)) names.push_back(std::move(variant));
+    options.names = std::move(names);
     std::vector<Shader> shaders;
     std::set<fs::path> read;
     bool good = true;
@@ -117,7 +122,7 @@ int main(int argc, char** argv) {
         Shader shader;
         std::string error;
         std::vector<fs::path> files;
-        if (obscura::gpu::compileShader(options.root / name, options.root, shader, error, files)) {
+        if (obscura::gpu::compileShader(options.root, name, shader, error, files)) {
             if (!options.keepNames) obscura::gpu::stripDebugInfo(shader.spirv);
         } else {
             std::fprintf(stderr, "%s\n", error.c_str());

@@ -3,14 +3,12 @@
 // Else one of the four, chosen by row and column [McGuire 2012, sec. 2.2]. In: linear depth, guard band included.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/constants.h"
 #include "ao/common/depth_mips.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 1, r32f) uniform writeonly image2D mips;
-layout(push_constant) uniform Constants {
-    float range;  // metres: texels nearer than the farthest by more have weight 0
-    float fade;   // fraction of `range` over which weights fall from 1 to 0
-};
+layout(push_constant) uniform Block { DepthMips constants; };
 layout(constant_id = 0) const bool kFarthest = true;
 
 shared float scratch[8][8];
@@ -22,7 +20,7 @@ float reduce(uvec2 texel, vec4 z) {  // z: of (0,0), (1,0), (0,1), (1,1)
         return right ? row.y : row.x;
     }
     float farthest = max(max(z.x, z.y), max(z.z, z.w));
-    vec4 w = clamp((range - (farthest - z)) / (fade * range), 0.0, 1.0);
+    vec4 w = clamp((constants.range - (farthest - z)) / (constants.fade * constants.range), 0.0, 1.0);
     return dot(w, z) / dot(w, vec4(1.0));
 }
 

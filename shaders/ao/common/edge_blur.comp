@@ -2,12 +2,13 @@
 // In: visibility and edges. Out: the same, or with kLast visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/constants.h"
 #include "ao/common/edges.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D noisy;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D intermediate;
 layout(set = 0, binding = 2, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants { float centre; };  // weight of the pixel itself; a neighbour's is at most 1
+layout(push_constant) uniform Block { EdgeBlur constants; };
 layout(constant_id = 0) const bool kLast = true;
 
 const float kDiagonal = 0.85 * 0.5;
@@ -29,7 +30,7 @@ void main() {
     vec4 straight = vec4(visibilityOf(l), visibilityOf(r), visibilityOf(t), visibilityOf(b));
     vec4 across = vec4(visibilityOf(imageLoad(noisy, low).x), visibilityOf(imageLoad(noisy, ivec2(high.x, low.y)).x),
                        visibilityOf(imageLoad(noisy, ivec2(low.x, high.y)).x), visibilityOf(imageLoad(noisy, high).x));
-    float value = (centre * visibilityOf(c) + dot(e, straight) + dot(d, across)) / (centre + dot(e + d, vec4(1.0)));
+    float value = (constants.centre * visibilityOf(c) + dot(e, straight) + dot(d, across)) / (constants.centre + dot(e + d, vec4(1.0)));
     if (kLast) imageStore(visibility, p, vec4(clamp(value, 0.0, 1.0)));
     else imageStore(intermediate, p, uvec4(packNoisy(value, c >> 16)));
 }

@@ -1,6 +1,7 @@
 // Gather of interleaved shares over the image; see gather.glsl. In: linear depth, packed normals.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/constants.h"
 #include "ao/common/tile.glsl"
 #include "shared/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -11,7 +12,7 @@ layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3) uniform sampler2D shares;
 layout(set = 0, binding = 4) uniform sampler2D open;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants { uint side; };
+layout(push_constant) uniform Block { Gather constants; };
 
 ivec2 pixels(View view) { return ivec2(view.visible); }
 float surfaceAt(View view, ivec2 p, out vec3 here, out vec3 n) {

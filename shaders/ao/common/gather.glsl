@@ -9,8 +9,8 @@ void main() {
     View view = viewBlock;  // a copy, so that the loop holds it in registers
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = pixels(view) - 1;
     if (any(greaterThan(p, last))) return;
-    int reach = int(side) / 2;
-    float outer = (side & 1u) != 0u ? 1.0 : 0.5;
+    int reach = int(constants.side) / 2;
+    float outer = (constants.side & 1u) != 0u ? 1.0 : 0.5;
     vec3 here, n;
     float z = surfaceAt(view, p, here, n);
     vec2 sum = vec2(0.0);

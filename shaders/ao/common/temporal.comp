@@ -7,6 +7,7 @@
 // Visibility is kept in 14 bits: in 8 bits or a half, slow averages stop 1/255 short of their target.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/common/constants.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -18,12 +19,7 @@ layout(set = 0, binding = 4, r16f) uniform readonly image2D current;
 layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2D history;
 layout(set = 0, binding = 6, r16f) uniform writeonly image2D result;
 layout(set = 0, binding = 7, rg32ui) uniform writeonly uimage2D newHistory;
-layout(push_constant) uniform Constants {
-    vec4 previousFromEye[3];  // rows
-    vec2 motionScale;         // to px
-    float history, depthTolerance, normalTolerance, clip, clipFloor;
-    uint valid;
-} constants;
+layout(push_constant) uniform Block { Reproject constants; };
 
 const float kLongest = 63.0;  // maximum of accumulated frames
 const float kUnrest = 1.5;    // factor on the mean change; 1.25 is one standard deviation of noise

@@ -2,9 +2,10 @@
 // In: visibility of those rows, linear depth, packed normals, `other`. Out: visibility, visible size.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "upsample.glsl"
+#include "ao/common/constants.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
+#include "upsample.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
@@ -12,18 +13,14 @@ layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform readonly image2D source;
 layout(set = 0, binding = 4, r16f) uniform readonly image2D other;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D result;
-layout(push_constant) uniform Constants {
-    int scale;         // px between two rows of the source
-    float window;      // width of the filter, px
-    float range;       // metres; points farther apart are not averaged
-};
+layout(push_constant) uniform Block { Upsample constants; };
 layout(constant_id = 0) const uint joins = 0;  // 1: the obscurance is subtracted from `other`, visible size
 
 void main() {
     View view = viewBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(result)))) return;
-    int every = scale;
+    int every = constants.scale;
     ivec2 guard = ivec2(view.guard), last = ivec2(view.visible) - 1 + guard, own = p + guard;
     float z = imageLoad(depth, own).x;
     if (isSky(view, z)) {
@@ -32,9 +29,9 @@ void main() {
     }
     vec3 here = eyePosition(view, vec2(own) + 0.5, z);
     vec3 n = unpackNormal(imageLoad(normals, own).x);
-    float inverseWindow = 1.0 / window, inverseRange = 1.0 / range;
+    float inverseWindow = 1.0 / constants.window, inverseRange = 1.0 / constants.range;
 
-    int count = imageSize(source).y, reach = int(0.5 * window);
+    int count = imageSize(source).y, reach = int(0.5 * constants.window);
     float nearest = imageLoad(source, ivec2(p.x, min(p.y / every, count - 1))).x;
     int from = max((p.y - reach) / every, 0), to = min((p.y + reach) / every, count - 1);
     float sum = 0.0, weight = 0.0;

@@ -1,15 +1,16 @@
 // 5x5 mean of neighbours with similar visibility; removes the noise where near and far field meet [Timonen 2013, sec. 10].
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/far_field/constants.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, r16f) uniform readonly image2D source;
 layout(set = 0, binding = 1, r16f) uniform writeonly image2D result;
-layout(push_constant) uniform Constants { float threshold; };
+layout(push_constant) uniform Block { FarFieldBlur constants; };
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = imageSize(source) - 1;
     if (any(greaterThan(p, last))) return;
-    float most = threshold, here = imageLoad(source, p).x, sum = 0.0, count = 0.0;
+    float most = constants.threshold, here = imageLoad(source, p).x, sum = 0.0, count = 0.0;
     for (int y = -2; y <= 2; ++y) {
         for (int x = -2; x <= 2; ++x) {
             ivec2 q = p + ivec2(x, y);

@@ -4,20 +4,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/tile.glsl"
+#include "ao/far_field/constants.h"
 #include "shared/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, rg32ui) uniform writeonly uimage2D surfaces;
-layout(push_constant) uniform Constants { uint side; };
+layout(push_constant) uniform Block { FarFieldBoxAverage constants; };
 
 void main() {
     View view = viewBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = ivec2(view.visible) - 1, guard = ivec2(view.guard);
     if (any(greaterThan(p, last))) return;
-    int reach = int(side) / 2;
-    float outer = (side & 1u) != 0u ? 1.0 : 0.5;
+    int reach = int(constants.side) / 2;
+    float outer = (constants.side & 1u) != 0u ? 1.0 : 0.5;
     float z = imageLoad(depth, p + guard).x, depths = 0.0, weights = 0.0;
     vec3 here = eyePosition(view, vec2(p + guard) + 0.5, z), n = unpackNormal(imageLoad(normals, p + guard).x), sum = vec3(0.0);
     for (int y = -reach; y <= reach; ++y) {

@@ -2,7 +2,7 @@
 // SUMS, a prefix sum (m0, m1, 1). Define CELLS_BINDING and CELLS_ACCESS (readonly, writeonly) first.
 #ifndef OBSCURA_FAR_FIELD_CELLS_GLSL
 #define OBSCURA_FAR_FIELD_CELLS_GLSL
-#include "ao/far_field/layout.h"
+#include "ao/far_field/constants.h"
 
 #ifdef SUMS
 const uint kAveraging = 1u;  // kPrefix

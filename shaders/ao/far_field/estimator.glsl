@@ -6,7 +6,7 @@
 // with differences of A0, A1, A2 (table.comp), two-dimensional. Include after declaring `table`, rgba32ui.
 #ifndef OBSCURA_FAR_FIELD_ESTIMATOR_GLSL
 #define OBSCURA_FAR_FIELD_ESTIMATOR_GLSL
-#include "ao/far_field/table.glsl"
+#include "ao/common/falloff_table.glsl"
 
 vec3 columnOf(uvec4 texel, float f) {
     vec2 a = unpackHalf2x16(texel.x), b = unpackHalf2x16(texel.y), c = unpackHalf2x16(texel.z);

@@ -5,28 +5,26 @@
 // growth of the former per pixel to the right and downwards; zeros without an object.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "ao/common/spans_at.glsl"
+#include "ao/common/layers_at.glsl"
+#include "ao/far_field/constants.h"
 layout(set = 0, binding = 5, r32f) uniform writeonly image2D background;
 layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D objects;
-layout(push_constant) uniform Constants {
-    Packing packing;
-    float unit;  // metres: the falloff's length
-};
+layout(push_constant) uniform Block { FarFieldFields constants; };
 
 void main() {
     View view = viewBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.size)))) return;
     uint normal;
-    Layers s = layersOfPixel(view, packing, p, normal);
+    Layers s = layersOfPixel(view, constants.layers, p, normal);
     bool last = s.firstLength <= -kEndless || (s.firstLength < 0.0 && s.second <= 0.0) || isSky(view, s.first);
     bool behind = s.firstLength > 0.0 && s.second > 0.0 && s.secondLength < 0.0;
     imageStore(background, p, vec4(last ? s.first : behind ? s.second : view.skyDepth));
     // The front is a plane, so unit / depth is linear over the image.
     vec3 n = unpackNormal(normal), position = eyePosition(view, vec2(p) + 0.5, s.first);
-    float away = view.orthographic > 0.5 ? -n.z * s.first * s.first : dot(n, position), front = unit / s.first;
-    vec2 growth = n.xy * view.unproject.xy * unit / (abs(away) > 1e-12 ? away : 1e-12);
+    float away = view.orthographic > 0.5 ? -n.z * s.first * s.first : dot(n, position), front = constants.unit / s.first;
+    vec2 growth = n.xy * view.unproject.xy * constants.unit / (abs(away) > 1e-12 ? away : 1e-12);
     // The slope per pixel is at most the thickness, for fronts that curve away.
-    float back = unit / (s.first + abs(s.firstLength)), most = front - back;
+    float back = constants.unit / (s.first + abs(s.firstLength)), most = front - back;
     imageStore(objects, p, last ? uvec4(0u) : uvec4(packHalf2x16(vec2(front, back)), packHalf2x16(clamp(growth, -most, most)), 0u, 0u));
 }

@@ -4,7 +4,7 @@
 // lines as (unit / depth, x / depth in pixels from the interval's middle): the sky is 0 and slanted planes stay planes.
 #ifndef OBSCURA_FAR_FIELD_GRID_GLSL
 #define OBSCURA_FAR_FIELD_GRID_GLSL
-#include "ao/far_field/layout.h"
+#include "ao/far_field/constants.h"
 #include "shared/view.h"
 
 const uint kSingle = 0u, kPrefix = 1u, kPyramid = 2u, kDirect = 3u;  // averaging; direct: points are single texels, without cells

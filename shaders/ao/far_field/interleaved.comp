@@ -1,4 +1,27 @@
-// Interleaved far-field obscurance; cells are points.
+// Far-field obscurance of this pixel's share of the sectors: share g has the directions g, g + n^2, g + 2 n^2 ... [Timonen 2013, sec. 10].
+// In: linear depth, averaged surfaces, directions, cells, the falloff's table. Out: (obscurance times sector widths, sector widths),
+// summed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "interleaved.glsl"
+#pragma variant SUMS
+#include "ao/common/tile.glsl"
+const uint kThin = 0u;
+#include "ao/far_field/sectors.glsl"
+layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D surfaces;
+layout(set = 0, binding = 6, rg16f) uniform writeonly image2D shares;
+
+void main() {
+    View view = viewBlock;  // copies, so that the loops hold them in registers
+    FarFieldConstants c = constants;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
+    uvec2 surface = imageLoad(surfaces, p).xy;
+    float z = uintBitsToFloat(surface.y);
+    vec2 sum = vec2(0.0);
+    if (!isSky(view, z)) {
+        Receiver r = receiverAt(view, p + ivec2(view.guard), z, unpackNormal(surface.x));
+        Turn turn = turnOf(c);
+        for (uint k = shareOf(view, p, c.side); k < c.directions; k += c.side * c.side) sum += sectorOf(r, k, c, turn, view.skyDepth);
+    }
+    imageStore(shares, p, vec4(2.0 * sum.x, sum.y, 0.0, 0.0));
+}

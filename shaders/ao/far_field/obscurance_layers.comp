@@ -5,8 +5,8 @@
 #extension GL_GOOGLE_include_directive : require
 const uint kThin = 0u;
 #include "ao/far_field/sectors.glsl"
-#include "ao/far_field/things.glsl"
-#include "ao/far_field/things_met.glsl"
+#include "ao/far_field/objects.glsl"
+#include "ao/far_field/object_arcs.glsl"
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
 layout(set = 0, binding = 7, rg32ui) uniform readonly uimage2D objects;

@@ -9,7 +9,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Directions { Direction dire
 #define CELLS_BINDING 1
 #define CELLS_ACCESS
 #include "ao/far_field/cells.glsl"
-layout(push_constant) uniform Constants { FarFieldConstants constants; };
+layout(push_constant) uniform Block { FarFieldConstants constants; };
 
 void main() {
     Direction d = directionsOf[gl_GlobalInvocationID.z];

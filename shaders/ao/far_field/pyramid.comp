@@ -9,14 +9,12 @@ layout(set = 0, binding = 1, std430) readonly buffer Directions { Direction dire
 #define CELLS_BINDING 2
 #define CELLS_ACCESS
 #include "ao/far_field/cells.glsl"
-layout(push_constant) uniform Constants {
-    FarFieldConstants constants;
-    uint from;
-};
+layout(push_constant) uniform Block { FarFieldPyramid pyramid; };
 
 void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
-    FarFieldConstants c = constants;
+    FarFieldConstants c = pyramid.constants;
+    uint from = pyramid.from;
     Direction d = directionsOf[gl_GlobalInvocationID.z];
     uvec2 block = gl_GlobalInvocationID.xy;  // lines, intervals
     uint lines = d.lines >> from, intervals = d.intervals >> from;

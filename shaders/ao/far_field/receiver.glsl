@@ -4,7 +4,7 @@
 // relative to the camera, for depths from scans, the near field or a mipmap.
 #ifndef OBSCURA_FAR_FIELD_RECEIVER_GLSL
 #define OBSCURA_FAR_FIELD_RECEIVER_GLSL
-#include "ao/far_field/table.glsl"
+#include "ao/common/falloff_table.glsl"
 #include "shared/view.h"
 
 struct Receiver {

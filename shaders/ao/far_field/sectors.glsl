@@ -2,7 +2,7 @@
 // bindings of its passes, except for receivers (2) and results (6). Include after declaring kThin.
 #ifndef OBSCURA_FAR_FIELD_SECTORS_GLSL
 #define OBSCURA_FAR_FIELD_SECTORS_GLSL
-#include "ao/far_field/layout.h"
+#include "ao/far_field/constants.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -13,7 +13,7 @@ layout(set = 0, binding = 3, std430) readonly buffer Directions { Direction dire
 #define CELLS_ACCESS readonly
 #include "ao/far_field/cells.glsl"
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimage2D table;
-layout(push_constant) uniform Constants { FarFieldConstants constants; };
+layout(push_constant) uniform Block { FarFieldConstants constants; };
 #include "ao/far_field/estimator.glsl"
 #include "ao/far_field/grid.glsl"
 #include "ao/far_field/receiver.glsl"

@@ -45,7 +45,7 @@ void march(inout Line line, Origin origin, vec3 start, vec3 up, Lens lens, Fallo
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
-    FalloffBlock rho = falloffBlock;
+    FalloffBlock rho = constants.falloff;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
@@ -54,12 +54,12 @@ void main() {
         imageStore(visibility, p, vec4(1.0));
         return;
     }
-    Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), offset);
+    Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), constants.offset);
     Noise noise = noiseAt(view, p);
     Lens lens = lensOf(view);
     vec3 start = toPixels(lens, origin.position), up = toPixels(lens, origin.n);
-    Steps walk = stepsOf(steps, radius, spacing, horizonThickness);
-    Share share = shareOfPixel(view, p, noise, directions, side);
+    Steps walk = stepsOf(constants.steps, constants.radius, constants.spacing, constants.horizonThickness);
+    Share share = shareOfPixel(view, p, noise, constants.directions, constants.side);
     vec2 direction = share.first;
     uint count = share.count;
 
@@ -70,7 +70,7 @@ void main() {
         Line lines[2];
         for (uint k = 0u; k < 2u; ++k) {
             vec3 t = direction.x * origin.b + direction.y * origin.c;
-            float at = mix(0.5, fract(noise.step + float(i + k) * kNextStep), jitter) * walk.part;
+            float at = mix(0.5, fract(noise.step + float(i + k) * kNextStep), constants.jitter) * walk.part;
             lines[k] = Line(t, toPixels(lens, t), at, metresAt(walk, at), 0.0, 1.0, 1.0, 0.0);
             direction = share.next * direction;
         }
@@ -84,7 +84,7 @@ void main() {
         uvec2 sines = uvec2(ceil(vec2(lines[0].sine * lines[0].sine, lines[1].sine * lines[1].sine) * 255.0));
         word |= (min(sines.x, 255u) | min(sines.y, 255u) << 8) << (8u * (i & 2u));
         if ((i & 2u) != 0u || i + 2u >= count) {
-            if (rays != 0u) imageStore(horizons, wordAt(p, i >> 2, view.visible), uvec4(word));
+            if (constants.rays != 0u) imageStore(horizons, wordAt(p, i >> 2, view.visible), uvec4(word));
             word = 0u;
         }
     }

@@ -3,21 +3,11 @@
 #define OBSCURA_HORIZON_SPLIT_MARCH_GLSL
 #include "ao/common/lens.glsl"
 #include "ao/common/tile.glsl"
+#include "ao/horizon_split/constants.h"
 #include "shared/falloff.h"
 #include "shared/view.h"
 
-layout(push_constant) uniform Constants {  // of both passes
-    FalloffBlock falloffBlock;
-    uint directions;  // N_d
-    uint steps;       // N_s
-    uint rays;        // N_n, per direction; 0: horizons are not stored
-    float radius;     // R, metres
-    float spacing;    // of steps: 0 even, as in the paper; 1 quadratic, denser near the pixel
-    float jitter;     // of steps, 0..1
-    float offset;     // of lines from the surface, pixels
-    float horizonThickness, rayThickness;  // of surfaces, for horizons and for rays, metres
-    uint side;        // of the interleaving tile, px; 1: not interleaved
-};
+layout(push_constant) uniform Block { HorizonSplitMarch constants; };
 
 // Three permutations of 0..15 over a 4x4 tile. Values are (i + 0.5) / 16.
 const float kRotation[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
@@ -31,7 +21,7 @@ struct Noise {  // each in [0,1)
 };
 Noise noiseAt(View view, ivec2 p) {
     int tile = (p.y & 3) * 4 + (p.x & 3);
-    vec3 noise = side > 1u ? pixelNoise(p) : (vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0;
+    vec3 noise = constants.side > 1u ? pixelNoise(p) : (vec3(kRotation[tile], kStep[tile], kNormal[tile]) + 0.5) / 16.0;
     noise = fract(noise + frameShift(view));
     return Noise(noise.x, noise.y, noise.z);
 }

@@ -23,7 +23,7 @@ float blockedAt(Space space, vec3 ray, Steps walk, float first);
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
-    FalloffBlock rho = falloffBlock;
+    FalloffBlock rho = constants.falloff;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
@@ -33,12 +33,12 @@ void main() {
         imageStore(visibility, p, vec4(1.0));
         return;
     }
-    Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), offset);
+    Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), constants.offset);
     Noise noise = noiseAt(view, p);
     Space space = spaceOf(view, origin);
     vec3 up = towards(space, origin.n);
-    Steps walk = stepsOf(steps, radius, spacing, rayThickness);
-    Share share = shareOfPixel(view, p, noise, directions, side);
+    Steps walk = stepsOf(constants.steps, constants.radius, constants.spacing, constants.rayThickness);
+    Share share = shareOfPixel(view, p, noise, constants.directions, constants.side);
     vec2 direction = share.first;
     uint count = share.count;
 
@@ -49,11 +49,11 @@ void main() {
         float horizon2 = float(word & 255u) / 255.0;
         word >>= 8u;
         vec3 along = towards(space, direction.x * origin.b + direction.y * origin.c);
-        float first = mix(0.5, fract(noise.step + float(i) * kNextStep), jitter) * walk.part;
+        float first = mix(0.5, fract(noise.step + float(i) * kNextStep), constants.jitter) * walk.part;
         float elevation = fract(noise.normal + float(i) * kNextNormal);
         // Equal weights of the part above this direction's horizon [Dimitrov, eq. 8-11, per direction].
-        float weight = (1.0 - horizon2) / float(rays);
-        for (uint k = 0u; k < rays; ++k) {
+        float weight = (1.0 - horizon2) / float(constants.rays);
+        for (uint k = 0u; k < constants.rays; ++k) {
             float sine2 = horizon2 + (float(k) + elevation) * weight;
             vec3 ray = sqrt(max(1.0 - sine2, 0.0)) * along + sqrt(sine2) * up;
             occlusion += weight * falloff(rho, blockedAt(space, ray, walk, first));

@@ -1,7 +1,7 @@
 // Normal rays through depth layers; surfaces have their rendered thickness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "ao/common/spans.glsl"
+#include "ao/common/packed_layers.glsl"
 #include "ao/horizon_split/march.glsl"
 struct Space {
     Lens lens;

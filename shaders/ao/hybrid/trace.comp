@@ -1,5 +1,75 @@
-// Hybrid obscurance, first pass, through the dense volume.
+// Hybrid obscurance, first pass [Reinbothe 2009, eq. 4]: a cone of rays through the volume, one invocation per map pixel.
+// In: volume, linear depth, packed normals. Out: visibility, depth and normal of the map's receivers. Formulas:
+// runtime/ao/methods/hybrid/hybrid.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variant VOLUME_NANOVDB
 #define VOLUME_BINDING 2
-#include "trace.glsl"
+#include "ao/common/map.glsl"
+#include "ao/common/tile.glsl"
+#include "ao/hybrid/constants.h"
+#include "shared/falloff.h"
+layout(push_constant) uniform Block { HybridTrace constants; };
+
+const float kTwoPi = 6.28318531, kGolden = -2.39996323, kShift = 0.754877666;
+
+void main() {
+    View view = viewBlock;
+    Volume volume = volumeBlock;
+    FalloffBlock rho = constants.falloff;
+    openVolume();
+    uint rayCount = constants.rays, stepCount = constants.steps;
+    float coneCosine = constants.cone, offsetCells = constants.offset, jitterOfSteps = constants.jitter;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, imageSize(map)))) return;
+    vec3 here, n;
+    if (!receive(view, p, int(constants.scale), here, n)) return;
+
+    // From here on all positions are in cells, so that a step is one vector addition.
+    float metres = volume.anchor.w;
+    vec3 normal = cellsAlong(volume, n) * metres;
+    vec3 receiver = cellOf(volume, here);
+    vec3 origin = receiver + offsetCells * normal;
+    // Noise depends on the place in the world, not on the pixel, so it does not move with the camera.
+    vec3 xi = fract(cellNoise(latticeCell(volume, receiver, normal, constants.grain)) + frameShift(view));
+    vec3 tangent, bitangent;
+    basisAround(normal, tangent, bitangent);
+
+    float step = rho.reach / float(stepCount), cellsPerStep = step / metres;
+    float lift = offsetCells * metres;
+    // The azimuth advances by the golden angle from ray to ray. Interleaved, a pixel has every `shares`th ray.
+    uint shares = constants.side * constants.side, share = constants.side > 1u ? shareOf(view, p, constants.side) : 0u;
+    float azimuth = kTwoPi * xi.y + kGolden * float(share);
+    vec2 azimuthVector = vec2(cos(azimuth), sin(azimuth));
+    vec2 rotation = constants.side > 1u ? vec2(cos(kGolden * float(shares)), sin(kGolden * float(shares)))
+                                        : vec2(-0.737368878, -0.675490294);
+    // An origin in a set cell is next to another surface. Which half of the rays it blocks is unknown, so each ray is half blocked at the
+    // origin, and is traced from one cell on.
+    bool originOccupied = occupied(volume, origin);
+    float nearest = originOccupied ? 1.0 / cellsPerStep : 0.0, originBlocked = originOccupied ? 0.5 : 0.0;
+    float blocked = 0.0, total = 0.0, shift = fract(xi.z + kShift * float(share)), shiftStep = kShift * float(shares);
+    for (uint i = share; i < rayCount; i += shares) {
+        float c = mix(coneCosine, 1.0, (float(i) + xi.x) / float(rayCount));
+        float sine = sqrt(max(1.0 - c * c, 0.0));
+        vec3 stride = (tangent * (azimuthVector.x * sine) + bitangent * (azimuthVector.y * sine) + normal * c) * cellsPerStep;
+        float first = mix(0.5, shift, jitterOfSteps);
+        // Back to front: the last hit is the nearest.
+        float hit = -1.0;
+        for (uint k = stepCount; k > 0u; --k) {
+            float t = float(k - 1u) + first;
+            vec3 at = origin + stride * t;
+            hit = occupied(volume, at) && t >= nearest ? t : hit;
+        }
+        // Distance from the receiver, not from the raised origin, as to a surface that faces the ray.
+        float far = hit >= 0.0 ? falloff(rho, hit * step + lift * c) : 0.0;
+        blocked += c * mix(far, falloff(rho, lift * c), originBlocked);
+        total += c;
+        azimuthVector =
+            vec2(azimuthVector.x * rotation.x - azimuthVector.y * rotation.y, azimuthVector.x * rotation.y + azimuthVector.y * rotation.x);
+        shift = fract(shift + shiftStep);
+    }
+    // Shares have different sums of cosines: dividing by their mean makes the shares average to the whole. A single share's visibility
+    // may be below 0.
+    if (constants.side > 1u) total = float(rayCount / shares) * mix(coneCosine, 1.0, (0.5 * float(rayCount - 1u) + xi.x) / float(rayCount));
+    imageStore(map, p, vec4(min(1.0 - blocked / total, 1.0)));
+}

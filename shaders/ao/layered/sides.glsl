@@ -1,7 +1,7 @@
 // One side of a slice: its view rays, and coverage of its integral by depth layers.
 #ifndef OBSCURA_SIDES_GLSL
 #define OBSCURA_SIDES_GLSL
-#include "ao/common/spans.glsl"
+#include "ao/common/packed_layers.glsl"
 #include "shared/falloff.h"
 
 const float kPi = 3.14159265;

@@ -4,6 +4,7 @@
 // In: packed normals, depth pyramid, the falloff's table. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/mipmap/constants.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -13,13 +14,7 @@ layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 2) uniform sampler2D pyramid;
 layout(set = 0, binding = 3, rgba32ui) uniform readonly uimage2D table;
 layout(set = 0, binding = 4, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants {
-    uint directions;  // K
-    float factor;     // from step to step
-    float unit;       // metres: the falloff's length
-    float thickness;  // of surfaces, metres
-    float jitter;     // of directions, fraction of a sector
-};
+layout(push_constant) uniform Block { MipmapObscurance constants; };
 #include "ao/far_field/estimator.glsl"
 #include "ao/far_field/receiver.glsl"
 #include "ao/far_field/thin.glsl"
@@ -35,8 +30,10 @@ void main() {
         return;
     }
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
-    float growth = factor, metres = unit, thick = thickness, half_ = kPi / float(directions), width = 2.0 * tan(half_);
-    vec2 texelSize = 1.0 / r.size, sum = vec2(0.0), side = vec2(cos(half_), sin(half_)), along = jitterAt(view, texel, half_, jitter);
+    float growth = constants.factor, metres = constants.unit, thick = constants.thickness,
+          half_ = kPi / float(constants.directions), width = 2.0 * tan(half_);
+    vec2 texelSize = 1.0 / r.size, sum = vec2(0.0), side = vec2(cos(half_), sin(half_)),
+         along = jitterAt(view, texel, half_, constants.jitter);
     mat2 next = mat2(cos(2.0 * half_), sin(2.0 * half_), -sin(2.0 * half_), cos(2.0 * half_));
     for (uint k = 0u;;) {  // post-tested, see far_field/sectors.glsl
         Segment s = segmentOf(r, along, 1.0, side);
@@ -69,7 +66,7 @@ void main() {
         }
         sum += s.weight * vec2(kThin != 0u ? bins.sum : h.blocked, 1.0);
         along = next * along;
-        if (++k >= directions) break;
+        if (++k >= constants.directions) break;
     }
     imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));
 }

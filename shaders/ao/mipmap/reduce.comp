@@ -2,10 +2,11 @@
 // covers parts of three texels on that axis, so that levels stay aligned.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/mipmap/constants.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, r32f) uniform readonly image2D finer;
 layout(set = 0, binding = 1, r32f) uniform writeonly image2D coarser;
-layout(push_constant) uniform Constants { uint nearest; };
+layout(push_constant) uniform Block { MipmapReduce constants; };
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), size = imageSize(coarser), last = imageSize(finer) - 1;
@@ -21,5 +22,5 @@ void main() {
         weights += weight;
         least = weight > 1e-3 ? min(least, z) : least;
     }
-    imageStore(coarser, p, vec4(nearest != 0u ? least : sum / weights));
+    imageStore(coarser, p, vec4(constants.nearest != 0u ? least : sum / weights));
 }

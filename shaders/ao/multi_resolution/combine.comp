@@ -10,8 +10,9 @@ layout(set = 0, binding = 10, r32ui) uniform writeonly uimage2D resultDirections
 void main() {
     View view = viewBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, area))) return;
-    Surface here = surfaceOf(view, (vec2(origin + p) + 0.5) * texel, imageLoad(depth, origin + p).x, imageLoad(normals, origin + p).x);
+    if (any(greaterThanEqual(p, constants.area))) return;
+    ivec2 at = constants.origin + p;
+    Surface here = surfaceOf(view, (vec2(at) + 0.5) * constants.texel, imageLoad(depth, at).x, imageLoad(normals, at).x);
     Obscurance own = unpacked(uvec2(imageLoad(near, p).x, kDirected ? imageLoad(nearDirections, p).x : 0u), here.n);
     uvec2 bits = packed(combined(view, p, here, own), here.n);
     imageStore(result, p, uvec4(bits.x));

@@ -5,23 +5,14 @@
 // In: depth and packed normals of a level. The includer writes the result for an area of the level.
 #ifndef OBSCURA_MULTI_RESOLUTION_SAMPLE_GLSL
 #define OBSCURA_MULTI_RESOLUTION_SAMPLE_GLSL
+#include "ao/multi_resolution/constants.h"
 #include "ao/multi_resolution/levels.glsl"
 #include "shared/falloff.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
-layout(push_constant) uniform Constants {
-    FalloffBlock falloffBlock;
-    ivec2 size;        // of the level
-    ivec2 origin, area;
-    float texel;       // of the level, px
-    float reach;       // of samples, relative to the falloff's projected reach
-    float maxRadius;   // texels
-    float gain;
-    uint disk;         // 16 points on a disk instead of every other texel of a square
-    uint side;         // of the interleaving tile, px; 1: not interleaved
-};
+layout(push_constant) uniform Block { MultiResolutionSample constants; };
 
 // Poisson disk of four points, rotated by quarter turns. At the paper's radius of 5 all are at texel centres, at least 2 texels apart;
 // opposite pairs cancel on a plane.
@@ -51,21 +42,22 @@ void tap(Place p, FalloffBlock rho, ivec2 last, ivec2 offset, inout vec3 sum, in
 // Sum over every `shares`th sample from `share` on. p: a pixel of the area. Out: the number of samples, the pixel's normal.
 vec3 sampled(ivec2 p, int share, int shares, out float count, out vec3 n) {
     View view = viewBlock;  // copies, so that the loops hold them in registers
-    FalloffBlock rho = falloffBlock;
-    ivec2 last = size - 1;
+    FalloffBlock rho = constants.falloff;
+    ivec2 last = constants.size - 1;
     Place place;
-    place.at = origin + p;
+    place.at = constants.origin + p;
     float z = imageLoad(depth, place.at).x;
     place.scale = view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0);
-    place.step = texel * view.unproject.xy;
+    place.step = constants.texel * view.unproject.xy;
     place.ray = (vec2(place.at) + 0.5) * place.step + view.unproject.zw;
-    place.surface = surfaceOf(view, (vec2(place.at) + 0.5) * texel, z, imageLoad(normals, place.at).x);
+    place.surface = surfaceOf(view, (vec2(place.at) + 0.5) * constants.texel, z, imageLoad(normals, place.at).x);
 
-    float radius = min(reach * rho.reach * view.pixelsPerMetre / ((z * place.scale.x + place.scale.y) * texel), maxRadius);
+    float radius = min(constants.reach * rho.reach * view.pixelsPerMetre /
+                           ((z * place.scale.x + place.scale.y) * constants.texel), constants.maxRadius);
     bool none = radius < 1.0 || isSky(view, z);
     vec3 sum = vec3(0.0);
     count = 0.0;
-    if (disk != 0u) {
+    if (constants.disk != 0u) {
         int points = none ? 0 : 16;
         if (shares > 1) {
             for (int i = share; i < points; i += shares) tap(place, rho, last, ivec2(round(kDisk[i] * radius)), sum, count);
@@ -87,7 +79,7 @@ vec3 sampled(ivec2 p, int share, int shares, out float count, out vec3 n) {
         }
     }
     n = place.surface.n;
-    return sum * gain;
+    return sum * constants.gain;
 }
 
 #endif

@@ -8,8 +8,8 @@ layout(set = 0, binding = 3, rg16f) uniform writeonly image2D shares;
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, area))) return;
+    if (any(greaterThanEqual(p, constants.area))) return;
     float count;
-    vec3 n, sum = sampled(p, int(shareOf(viewBlock, p, side)), int(side * side), count, n);
+    vec3 n, sum = sampled(p, int(shareOf(viewBlock, p, constants.side)), int(constants.side * constants.side), count, n);
     imageStore(shares, p, vec4(along(sum, n), count, 0, 0));
 }

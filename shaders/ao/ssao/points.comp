@@ -1,8 +1,9 @@
-// Point samples in the hemisphere above each pixel; points behind the depth buffer are blocked. See runtime/ao/methods/ssao.cpp.
+// Point samples in the hemisphere above each pixel; points behind the depth buffer are blocked. See runtime/ao/methods/ssao/ssao.cpp.
 // In: linear depth, packed normals (guard band included), the kernel. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/tile.glsl"
+#include "ao/ssao/constants.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -11,15 +12,11 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, std430) readonly buffer Kernel { vec4 kernel[]; };  // metres; z along the normal
 layout(set = 0, binding = 4, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants {
-    uint samples;
-    float radius;  // metres
-    float bias;    // metres by which the depth buffer must be nearer than a point
-};
+layout(push_constant) uniform Block { SsaoPoints constants; };
 
 void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
-    float range = radius, least = bias;
+    float range = constants.radius, least = constants.bias;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = ivec2(view.size) - 1;
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
@@ -38,7 +35,7 @@ void main() {
         float pointDepth = max(-s.z, 1e-3),
               zq = imageLoad(depth, clamp(ivec2(floor(pixelOf(view, vec3(s.xy, -pointDepth)))), ivec2(0), last)).x;
         blocked += zq <= pointDepth - least ? smoothstep(0.0, 1.0, range / abs(z - zq)) : 0.0;
-        if (++i >= samples) break;
+        if (++i >= constants.samples) break;
     }
-    imageStore(visibility, p, vec4(1.0 - blocked / float(samples)));
+    imageStore(visibility, p, vec4(1.0 - blocked / float(constants.samples)));
 }

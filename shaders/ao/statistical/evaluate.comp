@@ -3,6 +3,7 @@
 // In: depth, normals, extent, tables (unused ones are bound to the root). Out: visibility, R16F.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/statistical/constants.h"
 #include "ao/statistical/fixed_point.h"
 #include "ao/statistical/window.glsl"
 #include "shared/octahedral.glsl"
@@ -16,7 +17,7 @@ layout(set = 0, binding = 5, std430) readonly buffer First { uvec4 first[]; };  
 layout(set = 0, binding = 6, std430) readonly buffer Second { uvec4 second[]; };    // nearer of the near, nearer of the far
 layout(set = 0, binding = 7, std430) readonly buffer Third { uvec4 third[]; };      // nearest of each of those four
 layout(set = 0, binding = 8, r16f) uniform writeonly image2D visibility;
-layout(push_constant) uniform Constants { Box boxBlock; uvec2 size; float slope, gain; };
+layout(push_constant) uniform Block { StatisticalEvaluate constants; };
 layout(constant_id = 1) const uint layers = 4;  // 1, 2, 4, 8
 
 WINDOW_SUMS(sumRoot, root, 1u)
@@ -26,7 +27,7 @@ WINDOW_SUMS(sumThird, third, 4u)
 
 void main() {
     View view = viewBlock;
-    Box box = boxBlock;
+    Box box = constants.box;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
@@ -42,12 +43,12 @@ void main() {
     if (dot(shape.n, towardsEye(view, shape.here)) < 0.0) shape.n = -shape.n;
     shape.metres = 1.0 / unitsPerMetre(view, box, extent);
     shape.height = boxHeight(view, box, z);
-    shape.slope = slope;
+    shape.slope = constants.slope;
 
     vec2 centre = pixel / float(box.texelSide);
     float reach = halfWindow(view, box, z) / float(box.texelSide);
-    Axis x = axisOf(centre.x, reach, size.x), y = axisOf(centre.y, reach, size.y);
-    uint pitch = size.x + 1u;
+    Axis x = axisOf(centre.x, reach, constants.size.x), y = axisOf(centre.y, reach, constants.size.y);
+    uint pitch = constants.size.x + 1u;
     // Level by level: each parent becomes its farther half by subtracting its nearer one.
     mat4 furthest = sumRoot(0u, x, y, pitch), near, middle, far;  // sums of up to four layers
     vec4 count = counts(furthest), blocked = vec4(0.0);
@@ -74,5 +75,5 @@ void main() {
     blocked += blockedBy(furthest, shape);
     if (layers >= 2u) blocked += blockedBy(near, shape);
     if (layers >= 4u) blocked += blockedBy(middle, shape) + blockedBy(far, shape);
-    imageStore(visibility, p, vec4(clamp(1.0 - gain * meanOfCells(blocked, count, x, y), 0.0, 1.0)));
+    imageStore(visibility, p, vec4(clamp(1.0 - constants.gain * meanOfCells(blocked, count, x, y), 0.0, 1.0)));
 }

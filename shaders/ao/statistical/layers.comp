@@ -3,6 +3,7 @@
 // In: texels, codes and tables of the previous levels (unused ones are bound to the root). Out: codes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/statistical/constants.h"
 #include "ao/statistical/fixed_point.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
@@ -12,7 +13,7 @@ layout(set = 0, binding = 3, std430) readonly buffer Root { uvec4 root[]; };
 layout(set = 0, binding = 4, std430) readonly buffer First { uvec4 first[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Second { uvec4 second[]; };
 layout(set = 0, binding = 6, std430) buffer Codes { uint codes[]; };
-layout(push_constant) uniform Constants { Box boxBlock; uvec2 size; uint uniformLayers; };
+layout(push_constant) uniform Block { StatisticalLayers constants; };
 layout(constant_id = 0) const uint level = 1;
 
 // Sum of z and count over a window of table[LAYERS x entry + LAYER]; corners as indices of entries.
@@ -21,10 +22,10 @@ layout(constant_id = 0) const uint level = 1;
 
 void main() {
     View view = viewBlock;
-    Box box = boxBlock;
+    Box box = constants.box;
     uvec2 t = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(t, size))) return;
-    uint at = t.y * size.x + t.x;
+    if (any(greaterThanEqual(t, constants.size))) return;
+    uint at = t.y * constants.size.x + t.x;
     ivec2 texel = ivec2(texels[at].zw);
     if (texel.y == 0) {
         codes[at] = 0u;
@@ -34,15 +35,16 @@ void main() {
     float d = -float(texel.x) / float(texel.y);  // in units
     if (level == 0u) {
         float near = nearestDepth(extent), far = uintBitsToFloat(extent.furthest);
-        codes[at] = uint(clamp((d / units - near) / max(far - near, 1e-6) * float(uniformLayers), 0.0, float(uniformLayers - 1u)));
+        float count = float(constants.uniformLayers);
+        codes[at] = uint(clamp((d / units - near) / max(far - near, 1e-6) * count, 0.0, count - 1.0));
         return;
     }
 
     // Whole texels: fractions of texels at the window's edge do not matter for the split.
     float reach = halfWindow(view, box, d / units) / float(box.texelSide);
     ivec2 low = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 - reach)), ivec2(0), ivec2(t));
-    ivec2 high = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 + reach)), ivec2(t) + 1, ivec2(size));
-    uint pitch = size.x + 1u;
+    ivec2 high = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 + reach)), ivec2(t) + 1, ivec2(constants.size));
+    uint pitch = constants.size.x + 1u;
     uvec2 rows = uvec2(low.y, high.y) * pitch, columns = uvec2(low.x, high.x);
     uvec4 corner = uvec4(rows.x + columns, rows.y + columns);
     uvec2 sum = WINDOW(root, 1u, 0u);

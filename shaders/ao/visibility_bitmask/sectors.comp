@@ -1,30 +1,24 @@
 // Visibility bitmask: a bit for each of 32 sectors of every slice of the hemisphere; samples of constant thickness set bits. Formulas:
-// runtime/ao/methods/visibility_bitmask.cpp. In and out: ao/common/slice.glsl.
+// runtime/ao/methods/visibility_bitmask/visibility_bitmask.cpp. In and out: ao/common/slice.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/slice.glsl"
+#include "ao/visibility_bitmask/constants.h"
 #include "shared/falloff.h"
-layout(push_constant) uniform Constants {
-    FalloffBlock falloffBlock;
-    uint slices;
-    uint steps;       // a side
-    float thickness;  // metres
-    float mipOffset;  // log2 of px up to which level 0 is read
-    uint rayAxis;     // slices are evenly spaced 0: on the screen, 1: around the view ray
-};
+layout(push_constant) uniform Block { VisibilityBitmaskSectors constants; };
 layout(constant_id = 0) const bool kCosine = false;  // sectors have equal weight instead of equal angle
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
-    FalloffBlock rho = falloffBlock;
+    FalloffBlock rho = constants.falloff;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    float thick = thickness;
+    float thick = constants.thickness;
     Receiver r;
     if (!receive(view, p, rho.reach, r)) return;
 
     float blocked = 0.0;
     for (uint k = 0u;;) {
-        Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(slices), rayAxis != 0u);
+        Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(constants.slices), constants.rayAxis != 0u);
         float no = dot(r.n, slice.across), projected = sqrt(max(no * no + r.nv * r.nv, 1e-12)), sine = no / projected;
         float gamma = sign(no) * arcCosine(r.nv / projected);
         // Cosines of the hemisphere's edges on both sides, and the integral of each side.
@@ -32,8 +26,8 @@ void main() {
         float perSector = 32.0 / max(whole.x + whole.y, 1e-6), sum = 0.0;
         uint covered = 0u;
         for (uint i = 0u;;) {
-            float t = samplePlace(r, k, i, steps), l = t * t * r.radius + kTooClose;
-            int level = levelAt(l, mipOffset);
+            float t = samplePlace(r, k, i, constants.steps), l = t * t * r.radius + kTooClose;
+            int level = levelAt(l, constants.mipOffset);
             vec2 offset = floor(l * slice.along + 0.5);
             for (int side = 0; side < 2; ++side) {
                 vec3 d = toSurface(view, r, side == 0 ? r.pixel + offset : r.pixel - offset, level), b = d - thick * r.v;
@@ -55,10 +49,10 @@ void main() {
                 covered |= bits;
                 sum += weight * float(bitCount(bits));
             }
-            if (++i >= steps) break;
+            if (++i >= constants.steps) break;
         }
         blocked += sum / 32.0 * (kCosine ? 0.5 * (whole.x + whole.y) : 1.0);
-        if (++k >= slices) break;
+        if (++k >= constants.slices) break;
     }
-    imageStore(noisy, p, uvec4(packNoisy(1.0 - blocked / float(slices), r.edges)));
+    imageStore(noisy, p, uvec4(packNoisy(1.0 - blocked / float(constants.slices), r.edges)));
 }

@@ -1,0 +1,36 @@
+# obscura_method(<id> [LIBRARY <target>] [ROOT <folder>])
+#   Adds a method to the library (obscura_ao): the sources in <folder>/runtime/ao/methods/<id>, the compute shaders in
+#   <folder>/shaders/ao/<id>, and its line in the registry. <folder> is the project. tests/<id> follows by itself (tests/CMakeLists.txt).
+# obscura_registry(<target> [SHADERS <folder>])
+#   After all methods: writes the registry's list and embeds the shaders of the target's methods and of the passes they share, which
+#   <folder> holds (the project's shaders/).
+function(obscura_method id)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LIBRARY;ROOT" "")
+  if(NOT arg_LIBRARY)
+    set(arg_LIBRARY obscura_ao)
+  endif()
+  if(NOT arg_ROOT)
+    set(arg_ROOT ${PROJECT_SOURCE_DIR})
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${arg_ROOT}/runtime/ao/methods/${id}/*.cpp)
+  file(GLOB shaders CONFIGURE_DEPENDS RELATIVE ${arg_ROOT}/shaders ${arg_ROOT}/shaders/ao/${id}/*.comp)
+  if(NOT sources)
+    message(FATAL_ERROR "obscura_method(${id}): there is no source in ${arg_ROOT}/runtime/ao/methods/${id}")
+  endif()
+  target_sources(${arg_LIBRARY} PRIVATE ${sources})
+  set_property(TARGET ${arg_LIBRARY} APPEND PROPERTY OBSCURA_METHODS ${id})
+  set_property(TARGET ${arg_LIBRARY} APPEND PROPERTY OBSCURA_SHADERS ${shaders})
+endfunction()
+
+function(obscura_registry target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "SHADERS" "")
+  get_target_property(methods ${target} OBSCURA_METHODS)
+  get_target_property(shaders ${target} OBSCURA_SHADERS)
+  list(TRANSFORM methods REPLACE "(.+)" "OBSCURA_METHOD(\\1)\n")
+  list(JOIN methods "" lines)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${target}/methods.inc CONTENT "${lines}")
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${target})
+  file(GLOB shared CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/shaders
+    ${PROJECT_SOURCE_DIR}/shaders/ao/common/*.comp ${PROJECT_SOURCE_DIR}/shaders/ao/offscreen/*.comp)
+  obscura_shaders(${target} ao ROOT "${arg_SHADERS}" ${shared} ${shaders})
+endfunction()

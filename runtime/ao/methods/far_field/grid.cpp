@@ -1,0 +1,55 @@
+#include "ao/methods/far_field/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura::ao {
+namespace {
+
+constexpr uint32_t kMostLevels = 7;
+
+uint32_t roundUp(uint32_t value, uint32_t unit) { return (value + unit - 1) / unit * unit; }
+
+FarFieldGrid gridOf(shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging) {
+    FarFieldGrid grid;
+    grid.interval = interval;
+    const double longest = std::hypot(double(size.x), double(size.y)) / interval;
+    while (grid.levels < kMostLevels && double(2u << grid.levels) <= longest) ++grid.levels;
+    const uint32_t unit = 1u << (grid.levels - 1);
+    uint64_t cells = 0;
+    for (uint32_t k = 0; k < directions; ++k) {
+        const double angle = 6.283185307179586 * k / directions, c = std::cos(angle), s = std::sin(angle);
+        const double along = std::abs(c) * size.x + std::abs(s) * size.y, across = std::abs(s) * size.x + std::abs(c) * size.y;
+        shared::Direction d{};
+        d.along = {float(c), float(s)};
+        d.lines = std::max(roundUp(uint32_t(std::ceil(across / lineStep - 1e-6)), unit), 2 * unit);
+        d.intervals = roundUp(uint32_t(std::ceil(along / interval - 1e-6)), unit);
+        d.origin = {0.5f * float(d.intervals * interval), 0.5f * float(d.lines * lineStep)};
+        d.base = uint32_t(cells);
+        const uint64_t level0 = uint64_t(d.lines) * d.intervals;
+        const uint32_t multiple = 1u << ((averaging == Averaging::pyramid ? 2 : 1) * grid.levels);
+        const uint64_t total = averaging == Averaging::pyramid ? (4 * level0 + 2) / 3 : 2 * level0;
+        d.total = uint32_t((total + multiple - 1) / multiple * multiple);
+        cells += d.total;
+        grid.lines = std::max(grid.lines, d.lines);
+        grid.intervals = std::max(grid.intervals, d.intervals);
+        grid.directions.push_back(d);
+    }
+    const bool sums = averaging == Averaging::prefixSums;
+    grid.format = sums ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_UINT;
+    grid.rows = uint32_t((cells + shared::kCellsWide - 1) / shared::kCellsWide);
+    grid.bytes = uint64_t(grid.rows) * shared::kCellsWide * (sums ? 16 : 4);
+    return grid;
+}
+
+}  // namespace
+
+FarFieldGrid farFieldGrid(
+    shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging, uint32_t mostRows) {
+    for (;; ++interval) {
+        FarFieldGrid grid = gridOf(size, directions, interval, lineStep, averaging);
+        if (grid.bytes <= kMostBytes && grid.rows <= mostRows) return grid;
+    }
+}
+
+}  // namespace obscura::ao

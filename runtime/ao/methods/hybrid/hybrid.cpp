@@ -1,0 +1,116 @@
+// Hybrid ambient occlusion by voxelization [Reinbothe, Boubekeur, Alexa 2009, Hybrid Ambient Occlusion]. Rays from the pixel's surface
+// point run through a grid of occupied cells, which includes occluders outside the image:
+//     A = sum over rays of c rho(t) / sum over rays of c,   c = cos(ray, normal), t the distance to the first set cell
+// on a map of a quarter of the pixels, followed by joint bilateral upsampling in two passes. Differences from the paper: division by the
+// sum of cosines instead of the count (the paper's 1/n halves full enclosure); normal weight w(1 - n.n') instead of w(1 + n.n'), which is 0
+// for equal normals; steps shifted per ray; a filter range of a quarter of the reach; distances measured from the surface point although
+// rays start above it (as to a surface that faces the ray).
+//
+// Rays are uniform in the cosine over the cone, at multiples of the golden angle around the normal, with noise fixed in the world.
+// Reads the volume, linear depth and normals; writes visibility of the visible part. Rays can be interleaved over the map's pixels.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ao/hybrid/constants.h"
+#include "ao/interleave.h"
+#include "ao/upsample.h"
+
+namespace obscura::ao::hybrid {
+namespace {
+
+constexpr float kGrain = 1.0f;  // side of a noise cell, in cells of the volume
+
+const Parameter kParameters[] = {
+    {"rays", "", 8, 128, 21, true, {}, "Rays per pixel of the map. Cost grows with rays x steps. Too few: blotches after upsampling."},
+    {"steps", "", 4, 64, 10, true, {},
+        "Voxel lookups along each ray, out to the falloff's reach. Cost grows with rays x steps. Too few: thin objects are missed."},
+    {"jitter", "", 0, 1, 1, false, {},
+        "1: steps are shifted for each ray; the filter removes the noise. 0: equal steps for all rays, as in the paper, which leave "
+        "contours."},
+    {"spread", "", 0.1f, 1, 1, false, {},
+        "Half angle of the cone of rays, as a fraction of 90 degrees. Less is sharper, but occluders near the horizon are missed."},
+    {"offset", "cells", 0, 8, 1.75f, false, {},
+        "Distance above the surface at which rays start. Cells that touch a plane end within sqrt(3) = 1.73 cells of it. Too low: surfaces "
+        "shadow themselves; too high: contact shadows are lost."},
+    {"map", "px", 1, 4, 2, true, {},
+        "Image pixels per pixel of the map, each way. 2 costs a quarter of 1. Too high: small objects lose their occlusion."},
+    kInterleave,
+    {"filter", "px", 0, 32, 20, true, {},
+        "Width of the upsampling filter. Cost grows with it. 0: the smallest that fills the gaps. Too low: noise; too high: contact "
+        "shadows blur."},
+    {"filter_range", "", 0.01f, 1, 0.31f, false, {},
+        "Points farther apart than this fraction of the falloff's reach are not averaged. Too low: noise; too high: occlusion bleeds "
+        "between surfaces."},
+};
+const Setting kPaper[] = {{"rays", 32}, {"steps", 8}, {"jitter", 0}, {"filter", 16}, {"filter_range", 1}};
+const Setting kQuality[] = {{"rays", 64}, {"steps", 24}, {"filter", 8}, {"map", 1}};
+const Preset kPresets[] = {
+    {"default", "21 rays x 10 jittered steps on a quarter-area map, 20 px filter.", {}},
+    {"paper", "32 rays x 8 equal steps on a quarter-area map, 16 px filter. Use a volume of 256 cells a side.",
+        {kPaper, std::size(kPaper)}},
+    {"quality", "64 rays x 24 steps at every pixel, 8 px filter.", {kQuality, std::size(kQuality)}},
+};
+const MethodInfo kInfo{"hybrid", "Hybrid ambient occlusion",
+    "Reinbothe, Boubekeur, Alexa: Hybrid Ambient Occlusion, Eurographics 2009 Areas Papers",
+    "Rays through a voxel grid of the world, so that occluders outside the image count.", kDepth | kNormals | kVolume,
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
+
+class Hybrid final : public Method {
+public:
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+        auto result = std::make_unique<Hybrid>();
+        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {}, result->m_trace[0]) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp:VOLUME_NANOVDB", {}, result->m_trace[1]) != gpu::Status::ok)
+            return nullptr;
+        if (Upsample::create(device, shaders, result->m_upsample) != Status::ok ||
+            Gather::create(device, shaders, result->m_gather) != Status::ok)
+            return nullptr;
+        return result;
+    }
+
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        if (!inputs.volume) return open(graph, inputs);
+        const auto& visible = inputs.view.visible;
+        const uint32_t scale = values.count("map"), side = tileSide(values);
+        const uint32_t width = (visible.x + scale - 1) / scale, height = (visible.y + scale - 1) / scale;
+        graph::ImageId map = graph.image("hybrid.map", {VK_FORMAT_R16_SFLOAT, width, height});
+        const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
+        const shared::HybridTrace trace{inputs.falloff, sharedOut(values.count("rays"), side), values.count("steps"), scale,
+            std::cos(values["spread"] * 1.5707963f), values["offset"], values["jitter"], kGrain, side};
+        graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)])
+            .read(inputs.viewBlock)
+            .read(inputs.volume.block)
+            .read(inputs.volume.bits)
+            .read(inputs.depth)
+            .read(inputs.normals)
+            .write(map)
+            .write(receivers)
+            .constants(trace)
+            .dispatch(width, height);
+        if (side > 1) map = m_gather.addMap(graph, inputs, map, receivers, scale, side);
+        if (scale == 1 && values["filter"] < 1.0f) return map;
+
+        const UpsampleSettings upsample{
+            scale, std::max(values["filter"], 2.0f * float(scale)), values["filter_range"] * inputs.falloff.reach};
+        return m_upsample.add(graph, inputs, {map, receivers}, upsample, "hybrid");
+    }
+
+private:
+    graph::ImageId open(graph::Graph& graph, const Inputs& inputs) {
+        if (!std::exchange(m_warned, true))
+            graph.device().log(gpu::Severity::warning, "hybrid: the frame has no volume (Frame::volume); visibility is 1 everywhere");
+        return allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "hybrid.open");
+    }
+
+    gpu::Program m_trace[2];  // by VolumeStructure
+    Upsample m_upsample;
+    Gather m_gather;
+    bool m_warned = false;
+};
+
+}  // namespace
+
+MethodEntry entry() { return {&kInfo, &Hybrid::create}; }
+
+}  // namespace obscura::ao::hybrid

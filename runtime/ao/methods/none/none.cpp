@@ -1,0 +1,24 @@
+// No obscurance: visibility 1 everywhere, against which cost and image of every method are compared.
+#include "ao/method.h"
+
+namespace obscura::ao::none {
+namespace {
+
+const Preset kPresets[] = {{"default", "Nothing is computed.", {}}};
+const MethodInfo kInfo{
+    "none", "No obscurance", "", "Ambient light reaches every point: the image without obscurance.", 0, {}, {kPresets, 1}};
+
+class None final : public Method {
+public:
+    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values&) override {
+        return allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "none.clear");
+    }
+};
+
+}  // namespace
+
+MethodEntry entry() {
+    return {&kInfo, [](gpu::Device&, const gpu::ShaderLibrary&) -> std::unique_ptr<Method> { return std::make_unique<None>(); }};
+}
+
+}  // namespace obscura::ao::none

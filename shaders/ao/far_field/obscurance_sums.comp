@@ -1,5 +1,0 @@
-// Obscurance; cells are prefix sums.
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#define SUMS
-#include "obscurance.glsl"

@@ -1,5 +1,0 @@
-// Horizon-based ambient occlusion [Bavoil 2008] from depth layers: a sample blocks from its front to its back.
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#define DEPTH_LAYERS
-#include "horizons.glsl"

@@ -1,0 +1,21 @@
+// Push constants of hybrid.
+#ifndef OBSCURA_HYBRID_CONSTANTS_H
+#define OBSCURA_HYBRID_CONSTANTS_H
+#include "shared/falloff.h"
+OBSCURA_SHARED_BEGIN
+
+struct HybridTrace {  // trace.comp
+    FalloffBlock falloff;
+    uint rays;
+    uint steps;
+    uint scale;            // image pixels per map pixel, each way
+    float cone;            // cosine of the cone's half angle
+    float offset;          // of rays' origin along the normal, cells
+    float jitter;          // 1: steps are shifted for each ray; 0: half a step
+    float grain;           // side of a noise cell, in cells
+    uint side;             // of the interleaving tile, map pixels; 1: not interleaved
+};
+OBSCURA_SHARED_SIZE(HybridTrace, 64);
+
+OBSCURA_SHARED_END
+#endif

@@ -1,0 +1,22 @@
+// Push constants of mipmap.
+#ifndef OBSCURA_MIPMAP_CONSTANTS_H
+#define OBSCURA_MIPMAP_CONSTANTS_H
+#include "shared/types.h"
+OBSCURA_SHARED_BEGIN
+
+struct MipmapReduce {  // reduce.comp
+    uint nearest;  // 1: the nearest of the texels that a texel covers; 0: their mean
+};
+OBSCURA_SHARED_SIZE(MipmapReduce, 4);
+
+struct MipmapObscurance {  // obscurance.comp
+    uint directions;  // K
+    float factor;     // from step to step
+    float unit;       // metres: the falloff's length
+    float thickness;  // of surfaces, metres
+    float jitter;     // of directions, fraction of a sector
+};
+OBSCURA_SHARED_SIZE(MipmapObscurance, 20);
+
+OBSCURA_SHARED_END
+#endif

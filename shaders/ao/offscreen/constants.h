@@ -1,0 +1,21 @@
+// Push constants of the off-screen pass.
+#ifndef OBSCURA_OFFSCREEN_CONSTANTS_H
+#define OBSCURA_OFFSCREEN_CONSTANTS_H
+#include "shared/falloff.h"
+OBSCURA_SHARED_BEGIN
+
+struct OffscreenTrace {  // trace.comp
+    FalloffBlock falloff;
+    uint rays;
+    float stride;          // longest ray step, cells
+    uint scale;            // image pixels per map pixel, each way
+    uint hidden;           // 1: occluders inside the image behind visible surfaces count too
+    float offset;          // of rays' origin along the normal, cells
+    float grain;           // side of a noise cell, in cells
+    float reach;           // of Blocking: metres from the receiver
+    float thickness;       // of Blocking: metres behind the visible surface
+};
+OBSCURA_SHARED_SIZE(OffscreenTrace, 64);
+
+OBSCURA_SHARED_END
+#endif

@@ -1,7 +1,0 @@
-// Off-screen occluders from a NanoVDB grid, with depth layers.
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#define DEPTH_LAYERS
-#define VOLUME_NANOVDB
-#define VOLUME_BINDING 2
-#include "trace.glsl"

@@ -1,0 +1,54 @@
+// Push constants of statistical.
+#ifndef OBSCURA_STATISTICAL_CONSTANTS_H
+#define OBSCURA_STATISTICAL_CONSTANTS_H
+#include "ao/statistical/fixed_point.h"
+OBSCURA_SHARED_BEGIN
+
+struct StatisticalExtent {  // extent.comp
+    uint count;  // blocks
+};
+OBSCURA_SHARED_SIZE(StatisticalExtent, 4);
+
+struct StatisticalTexels {  // texels.comp
+    Box box;
+    uvec2 size;  // of the tables, texels
+};
+OBSCURA_SHARED_SIZE(StatisticalTexels, 24);
+
+struct StatisticalLayers {  // layers.comp
+    Box box;
+    uvec2 size;          // of the tables, texels
+    uint uniformLayers;  // number of layers of equal thickness; 0: one more level of two
+    uint unused;
+};
+OBSCURA_SHARED_SIZE(StatisticalLayers, 32);
+
+struct StatisticalEvaluate {  // evaluate.comp
+    Box box;
+    uvec2 size;   // of the tables, texels
+    float slope;
+    float gain;
+};
+OBSCURA_SHARED_SIZE(StatisticalEvaluate, 32);
+
+struct StatisticalUniform {  // uniform.comp
+    Box box;
+    uvec2 size;    // of the tables, texels
+    float slope;
+    float gain;
+    uint isFirst;
+    uint isLast;
+};
+OBSCURA_SHARED_SIZE(StatisticalUniform, 40);
+
+struct StatisticalSamples {  // samples.comp
+    Box box;
+    float slope;
+    float gain;
+    uint samples;
+    uint lines;
+};
+OBSCURA_SHARED_SIZE(StatisticalSamples, 32);
+
+OBSCURA_SHARED_END
+#endif

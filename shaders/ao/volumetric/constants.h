@@ -1,0 +1,16 @@
+// Push constants of volumetric.
+#ifndef OBSCURA_VOLUMETRIC_CONSTANTS_H
+#define OBSCURA_VOLUMETRIC_CONSTANTS_H
+#include "shared/types.h"
+OBSCURA_SHARED_BEGIN
+
+struct VolumetricLines {  // lines.comp
+    uint lines;
+    float radius;     // metres, of the ball
+    float thickness;  // metres, of all surfaces
+    uint solid;       // 0: ball around the pixel, 1: its half above the tangent plane, 2: ball that touches the tangent plane at the pixel
+};
+OBSCURA_SHARED_SIZE(VolumetricLines, 16);
+
+OBSCURA_SHARED_END
+#endif
