@@ -83,7 +83,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     TemporalSettings temporal;
     temporal.history = values["temporal"];
     temporal.clip = values["temporal_clip"];
-    return {m_temporal.add(graph, inputs, visibility, temporal, discard, "resolve.temporal"), inputs};
+    return {m_temporal.add(graph, inputs, visibility, temporal, discard, "temporal"), inputs};
 }
 
 }  // namespace obscura::ao

@@ -109,7 +109,7 @@ graph::ImageId Views::add(
 
 graph::ImageId Views::addHistory(graph::Graph& graph, View view, const shared::View& frame) {
     for (const graph::Graph::Written& written : graph.written())
-        if (written.pass == "resolve.temporal" && graph.desc(written.image).format == VK_FORMAT_R32G32_UINT)
+        if (written.pass == "temporal" && graph.desc(written.image).format == VK_FORMAT_R32G32_UINT)
             return show(graph, written.image, view == View::history ? shared::kViewHistory : shared::kViewRejected, frame);
     return {};
 }
