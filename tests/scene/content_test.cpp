@@ -12,7 +12,7 @@
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/world.h"
 
 namespace obscura::scene::test {

@@ -8,7 +8,7 @@
 #include <meshoptimizer.h>
 #include <tiny_gltf.h>
 
-#include "scene/gltf_parts.h"
+#include "scene/gltf/stages.h"
 
 namespace obscura::scene::gltf {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf_parts.h"
+#include "scene/gltf/stages.h"
 #include "scene/json_at.h"
 
 namespace obscura::scene::gltf {

@@ -1,6 +1,6 @@
 // glTF 2.0 loader. tinygltf parses; what it does not check is validated here: cycles, ranges, counts, NaN, paths outside the folder. Reads
-// both containers, embedded and external buffers, sparse and normalized accessors, Draco and meshopt compression. The README.md of this
-// folder lists the extensions.
+// both containers, embedded and external buffers, sparse and normalized accessors, Draco and meshopt compression. runtime/scene/README.md
+// lists the extensions.
 #pragma once
 
 #include <filesystem>

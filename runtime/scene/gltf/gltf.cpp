@@ -1,5 +1,5 @@
-// Runs the loader's stages in order; each has its own gltf_*.cpp.
-#include "scene/gltf.h"
+// Runs the loader's stages in order; each has its own file of this folder.
+#include "scene/gltf/gltf.h"
 
 #include <new>
 
@@ -7,7 +7,7 @@
 #include <tiny_gltf.h>
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf_parts.h"
+#include "scene/gltf/stages.h"
 #include "scene/json_at.h"
 
 namespace obscura::scene {

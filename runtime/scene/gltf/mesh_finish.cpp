@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/gltf_parts.h"
+#include "scene/gltf/stages.h"
 
 namespace obscura::scene::gltf {
 namespace {

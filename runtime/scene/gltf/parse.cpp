@@ -6,7 +6,7 @@
 #include <tiny_gltf.h>
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf_parts.h"
+#include "scene/gltf/stages.h"
 
 namespace obscura::scene::gltf {
 namespace {

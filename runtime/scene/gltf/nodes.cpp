@@ -6,7 +6,7 @@
 #include <tiny_gltf.h>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "scene/gltf_parts.h"
+#include "scene/gltf/stages.h"
 
 namespace obscura::scene::gltf {
 namespace {

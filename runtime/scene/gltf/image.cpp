@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
-#include "scene/gltf_parts.h"
+#include "scene/gltf/stages.h"
 
 namespace {
 

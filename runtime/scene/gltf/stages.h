@@ -14,7 +14,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 namespace tinygltf {
 class Model;
@@ -66,11 +66,11 @@ struct Asset {
     std::vector<Bytes> unpacked;
 };
 
-// gltf_container.cpp
+// container.cpp
 Bytes readFile(const Context& context, const std::filesystem::path& file, std::string_view pointer, uint64_t limit);
 Document readDocument(Context& context, Bytes bytes);
 
-// gltf_check.cpp, gltf_check_looks.cpp, gltf_check_nodes.cpp
+// check.cpp, check_looks.cpp, check_nodes.cpp
 void checkDocument(Context& context, const nlohmann::json& json, bool hasChunk);
 void checkMaterials(Context& context, const nlohmann::json& json, bool hasChunk);  // images, samplers, textures, materials
 void checkMeshes(Context& context, const nlohmann::json& json);                    // references and counts of primitives
@@ -80,16 +80,16 @@ size_t bytesOf(int componentType);                                              
 size_t elementBytes(std::string_view type, int componentType);                     // matrix columns padded to four bytes
 size_t lastElementBytes(std::string_view type, int componentType);                 // an accessor may end before its last padding
 
-// gltf_files.cpp: the bytes of each buffer and image, in order. Buffers are cut to their byteLength, and empty where the file gives them no
+// files.cpp: the bytes of each buffer and image, in order. Buffers are cut to their byteLength, and empty where the file gives them no
 // data. Files of images that are not `wanted` must exist, but are not read.
 std::vector<Bytes> readBuffers(Context& context, Document& document);
 std::vector<Bytes> readImages(Context& context, const nlohmann::json& json, const std::vector<bool>& wanted);
 
-// gltf_parse.cpp
+// parse.cpp
 std::vector<bool> usedImages(const nlohmann::json& json);
 Asset parse(Context& context, Document& document, bool withImages);
 
-// gltf_compress.cpp
+// compress.cpp
 struct DracoMesh {
     std::vector<uint32_t> indices;
     std::map<std::string, std::vector<float>> attributes;  // by glTF name; components as the accessor has them
@@ -99,11 +99,11 @@ std::span<const uint8_t> viewOf(const Context& context, const Asset& asset, int 
 bool hasDraco(const tinygltf::Primitive& primitive);
 DracoMesh unpackDraco(Context& context, const Asset& asset, const tinygltf::Primitive& primitive, const std::string& pointer);
 
-// gltf_access.cpp: accessors as flat arrays, count * components; integers normalized where the accessor says so.
+// access.cpp: accessors as flat arrays, count * components; integers normalized where the accessor says so.
 std::vector<float> readFloats(Context& context, const Asset& asset, int accessor);
 std::vector<uint32_t> readIntegers(Context& context, const Asset& asset, int accessor);
 
-// gltf_image.cpp, gltf_material.cpp: fill images, textures and materials.
+// image.cpp, material.cpp: fill images, textures and materials.
 void addMaterials(Context& context, const Asset& asset, bool withImages, Model& model);
 struct ImageUse {
     int source = -1;  // glTF image
@@ -111,7 +111,7 @@ struct ImageUse {
 };
 std::vector<Image> decodeImages(Context& context, const Asset& asset, const std::vector<ImageUse>& uses, bool withImages);
 
-// gltf_mesh.cpp
+// mesh.cpp
 void addMeshes(Context& context, const Asset& asset, Model& model);
 
 // mesh_finish.cpp: data that the file lacks.
@@ -119,7 +119,7 @@ void addFlatNormals(Primitive& primitive);  // gives every triangle vertices of 
 void addTangents(Primitive& primitive, int texCoord);
 void addBounds(Primitive& primitive);
 
-// gltf_nodes.cpp, gltf_animation.cpp
+// nodes.cpp, animation.cpp
 void addNodes(Context& context, const Asset& asset, int scene, Model& model);
 void addAnimations(Context& context, const Asset& asset, Model& model);
 
