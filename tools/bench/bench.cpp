@@ -178,7 +178,7 @@ private:
 
     // Flicker over the scene's flythrough, if it has one; the same for all cameras and sizes.
     void flicker() {
-        const evaluate::SceneFile file = evaluate::findScene(m_scene);
+        const app::SceneFile file = app::expectScene(m_scene);
         if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); }))
             return;
         for (const evaluate::FalloffChoice& falloff : m_options.what.falloffs) {

@@ -8,9 +8,9 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
+#include "app/content.h"
 #include "app/voxel_arguments.h"
 #include "arguments.h"
-#include "content.h"
 #include "scene/hash.h"
 
 namespace obscura::bench {
@@ -126,8 +126,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     }
     options.triangles = trianglesOf(triangles);
     if (what.scenes.empty() && options.triangles.empty())
-        for (const evaluate::SceneFile& scene : evaluate::namedScenes())
-            if (!scene.file.empty()) what.scenes.push_back(scene.name);
+        for (const app::SceneFile& scene : app::namedScenes())
+            if (!scene.file.empty()) what.scenes.push_back(scene.info.name);
     for (const std::string& size : sizes) options.sizes.push_back(app::sizeOf(size));
     for (const std::string& camera : cameras) what.cameras.push_back(evaluate::cameraOf(camera));
     what.falloffs = evaluate::falloffs(falloffs);

@@ -7,7 +7,6 @@
 
 #include "app/complaint.h"
 #include "app/files.h"
-#include "content.h"
 #include "scene/json_file.h"
 
 namespace obscura::evaluate {

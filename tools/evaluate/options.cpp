@@ -8,9 +8,9 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
+#include "app/content.h"
 #include "app/voxel_arguments.h"
 #include "arguments.h"
-#include "content.h"
 #include "scene/hash.h"
 
 namespace obscura::evaluate {
@@ -47,8 +47,8 @@ void listMethods() {
 }
 
 void listScenes() {
-    for (const SceneFile& scene : namedScenes())
-        fmt::print("{:<12}{}\n", scene.name, scene.file.empty() ? "not found; " + scene.howToGet : scene.file.string());
+    for (const app::SceneFile& scene : app::namedScenes())
+        fmt::print("{:<12}{}\n", scene.info.name, scene.file.empty() ? "not found; " + scene.info.howToGet : scene.file.string());
 }
 
 void expectTogether(const Options& options, bool hasSceneOptions) {
@@ -205,8 +205,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (!*rays) options.rays.rays = 256;
         if (!*sizeOption) options.size = {480, 270};
         if (!*scene && capture.empty())
-            for (const SceneFile& known : namedScenes())
-                if (!known.file.empty()) options.scenes.push_back(known.name);
+            for (const app::SceneFile& known : app::namedScenes())
+                if (!known.file.empty()) options.scenes.push_back(known.info.name);
     } else if (*checkOption || *renewOption) {
         options.job = *checkOption ? Job::checkBaseline : Job::renewBaseline;
         options.baseline = *checkOption ? check : renew;

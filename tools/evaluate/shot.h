@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "content.h"
+#include "app/content.h"
 #include "machine.h"
 #include "options.h"
 #include "scene/world.h"
@@ -42,7 +42,7 @@ public:
 
 private:
     Machine& m_machine;
-    SceneFile m_file;
+    app::SceneFile m_file;
     std::shared_ptr<scene::World> m_world;
     double m_seconds = 0.0;  // loading time, reported with the first shot
 };

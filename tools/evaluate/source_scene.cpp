@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "app/complaint.h"
-#include "content.h"
 #include "shot.h"
 
 namespace obscura::evaluate {
@@ -16,25 +15,25 @@ using app::Complaint;
 namespace {
 
 // The file of a path camera: as given, or below a content folder; empty: the scene's flythrough.
-std::optional<fs::path> pathFile(const CameraChoice& choice, const SceneFile& file) {
+std::optional<fs::path> pathFile(const CameraChoice& choice, const app::SceneFile& file) {
     if (choice.file.empty()) return file.flythrough;
     std::error_code ignored;
     if (fs::is_regular_file(choice.file, ignored)) return choice.file;
-    return findContent(choice.file.string());
+    return app::findContent(choice.file.string());
 }
 
 // Empty if a default camera does not exist in the scene.
 std::optional<scene::Camera> cameraFor(
-    const CameraChoice& choice, const SceneFile& file, const scene::World* world, float time, bool usual) {
+    const CameraChoice& choice, const app::SceneFile& file, const scene::World* world, float time, bool usual) {
     switch (choice.kind) {
         case CameraChoice::Kind::path: {
             const auto path = pathFile(choice, file);
             if (path) return scene::loadCameraPath(*path).at(choice.at);
             if (usual) return std::nullopt;
-            throw Complaint(
-                choice.file.empty()
-                    ? fmt::format("--camera {}: {} has no flythrough of its own; name one: path:FILE.json@SECONDS", choice.text, file.name)
-                    : fmt::format("--camera {}: no such file", choice.text));
+            throw Complaint(choice.file.empty()
+                                ? fmt::format("--camera {}: {} has no flythrough of its own; name one: path:FILE.json@SECONDS", choice.text,
+                                      file.info.name)
+                                : fmt::format("--camera {}: no such file", choice.text));
         }
         case CameraChoice::Kind::file: {
             std::error_code ignored;
@@ -46,13 +45,13 @@ std::optional<scene::Camera> cameraFor(
             const scene::Instance& first = world->instances().front();
             const int count = scene::lensCount(*first.model);
             if (choice.lens >= count)
-                throw Complaint(fmt::format("--camera {}: {} has {} cameras; {}", choice.text, file.name, count,
+                throw Complaint(fmt::format("--camera {}: {} has {} cameras; {}", choice.text, file.info.name, count,
                     count ? fmt::format("write scene:0 to scene:{}", count - 1) : "write own, path:FILE.json@SECONDS, or FILE.json"));
             return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, time + first.timeOffset), choice.lens);
         }
         case CameraChoice::Kind::own: break;
     }
-    if (file.camera) return file.camera;
+    if (file.named) return file.camera();
     if (!world) return scene::Camera();
     const scene::Instance& first = world->instances().front();
     if (scene::lensCount(*first.model) > 0)
@@ -111,7 +110,7 @@ truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& came
 
 void expectScenes(const Options& options) {
     for (const std::string& scene : options.scenes) {
-        const SceneFile file = findScene(scene);
+        const app::SceneFile file = app::expectScene(scene);
         for (const CameraChoice& camera : options.cameras) cameraFor(camera, file, nullptr, 0.0f, options.usualCameras);
     }
 }
@@ -119,7 +118,7 @@ void expectScenes(const Options& options) {
 size_t shotCount(const Options& options) { return options.capture.empty() ? options.scenes.size() * options.cameras.size() : 1; }
 
 LoadedScene::LoadedScene(Machine& machine, const std::string& name)
-    : m_machine(machine), m_file(findScene(name)), m_world(std::make_shared<scene::World>()) {
+    : m_machine(machine), m_file(app::expectScene(name)), m_world(std::make_shared<scene::World>()) {
     const double begun = app::now();
     m_world->add({.model = scene::loadGltf(m_file.file)});
     if (m_world->triangleCount() == 0)
@@ -132,7 +131,7 @@ LoadedScene::LoadedScene(Machine& machine, const std::string& name)
 std::optional<Shot> LoadedScene::shot(const Options& options, const CameraChoice& choice) {
     const double begun = app::now();
     Shot shot;
-    shot.scene = m_file.name;
+    shot.scene = m_file.info.name;
     shot.camera = choice.text;
     shot.time = timeOf(options, choice);
     const auto camera = cameraFor(choice, m_file, m_world.get(), shot.time, options.usualCameras);

@@ -7,7 +7,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
-#include "content.h"
+#include "app/content.h"
 #include "scene/hash.h"
 
 namespace obscura::tune {
@@ -17,9 +17,9 @@ Place placeOf(const std::string& text, const char* option) {
     const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
     if (at.size() != 1 || at[0] < 0.0f)
         throw app::Complaint(fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough", option, text));
-    const evaluate::SceneFile file = evaluate::findScene(text.substr(0, mark));
-    if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.name));
-    return {file.name, at[0], text};
+    const app::SceneFile file = app::expectScene(text.substr(0, mark));
+    if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.info.name));
+    return {file.info.name, at[0], text};
 }
 
 Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs,
@@ -28,7 +28,7 @@ Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, con
         for (const evaluate::FalloffChoice& falloff : falloffs) {
             flythrough::Settings with = settings;
             with.falloff = falloff;
-            const std::string script = fmt::format("{}@{:g}", evaluate::findScene(place.scene).flythrough->string(), place.at);
+            const std::string script = fmt::format("{}@{:g}", app::expectScene(place.scene).flythrough->string(), place.at);
             m_flights.push_back(std::make_unique<flythrough::Flight>(machine, flythrough::findScript(script), with));
             m_names.push_back(place.text + " " + falloff.text);
         }

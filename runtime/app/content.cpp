@@ -1,12 +1,14 @@
-#include "content.h"
+#include "app/content.h"
 
 #include <cstdlib>
+
+#include <fmt/format.h>
 
 #include "app/complaint.h"
 #include "app/files.h"
 #include "scene/json_file.h"
 
-namespace obscura::game {
+namespace obscura::app {
 
 namespace fs = std::filesystem;
 
@@ -18,7 +20,7 @@ std::vector<fs::path> contentFolders() {
     };
     const fs::path source = OBSCURA_SOURCE_DIR;
     add(source / "content");
-    if (const fs::path program = app::executableFolder(); !program.empty()) add((program / "../share/obscura").lexically_normal());
+    if (const fs::path program = executableFolder(); !program.empty()) add((program / "../share/obscura").lexically_normal());
     if (const char* named = std::getenv("OBSCURA_CONTENT"); named && *named) add(named);
     add((source / "../shared/content").lexically_normal());
     return folders;
@@ -34,6 +36,14 @@ std::optional<fs::path> findContent(const std::vector<std::string>& relatives) {
 
 std::optional<fs::path> findContent(const std::string& relative) { return findContent(std::vector{relative}); }
 
+fs::path expectContent(const std::string& relative) {
+    if (const auto found = findContent(relative)) return *found;
+    throw Complaint(
+        fmt::format("{}: not found in content/ or ../share/obscura; run from the source tree or an installation, or name a "
+                    "content folder in OBSCURA_CONTENT",
+            relative));
+}
+
 namespace {
 
 float numberOr(const scene::JsonAt& at, const char* key, float otherwise) {
@@ -46,7 +56,7 @@ glm::vec2 vector2(const scene::JsonAt& at) {
     return {float(at.at(size_t(0)).number()), float(at.at(size_t(1)).number())};
 }
 
-SceneInfo sceneOf(const scene::JsonAt& at) {
+SceneInfo infoOf(const scene::JsonAt& at) {
     at.only({"name", "title", "files", "howToGet", "flythrough", "floor", "eye", "target", "walk", "exposure", "toyScale", "toys"});
     SceneInfo info;
     info.name = at.at("name").text();
@@ -79,14 +89,52 @@ SceneInfo sceneOf(const scene::JsonAt& at) {
 
 }  // namespace
 
-std::vector<SceneInfo> loadManifest() {
-    const auto file = findContent("scenes.json");
-    if (!file) throw app::Complaint("scenes.json: not found in content/ or ../share/obscura; run from the source tree or an installation");
-    const scene::JsonFile json(*file);
+std::optional<scene::Camera> SceneFile::camera() const {
+    if (!named) return std::nullopt;
+    scene::Camera camera;
+    camera.eye = info.eye;
+    camera.target = info.target;
+    return camera;
+}
+
+std::vector<SceneFile> namedScenes() {
+    const scene::JsonFile json(expectContent("scenes.json"));
     const scene::JsonAt scenes = json.root().at("scenes").expectArray();
-    std::vector<SceneInfo> list;
-    for (size_t i = 0; i < scenes.size(); ++i) list.push_back(sceneOf(scenes.at(i)));
+    std::vector<SceneFile> list;
+    for (size_t i = 0; i < scenes.size(); ++i) {
+        SceneFile& scene = list.emplace_back();
+        scene.info = infoOf(scenes.at(i));
+        scene.named = true;
+        scene.file = findContent(scene.info.files).value_or(fs::path());
+        scene.flythrough = findContent(scene.info.flythrough);
+    }
     return list;
 }
 
-}  // namespace obscura::game
+SceneFile findScene(const std::string& nameOrPath) {
+    std::vector<std::string> names;
+    for (SceneFile& scene : namedScenes()) {
+        if (scene.info.name == nameOrPath) return scene;
+        names.push_back(scene.info.name);
+    }
+    std::error_code ignored;
+    if (fs::is_regular_file(nameOrPath, ignored)) {
+        SceneFile scene;
+        scene.info.name = fs::path(nameOrPath).stem().string();
+        scene.file = nameOrPath;
+        return scene;
+    }
+    const bool path = nameOrPath.find('/') != std::string::npos || nameOrPath.find(".gl") != std::string::npos;
+    throw Complaint(path
+                        ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", nameOrPath,
+                              fmt::join(names, ", "))
+                        : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", nameOrPath, choices(nameOrPath, names)));
+}
+
+SceneFile expectScene(const std::string& nameOrPath) {
+    SceneFile scene = findScene(nameOrPath);
+    if (scene.file.empty()) throw Complaint(fmt::format("--scene {}: its file is missing; {}", scene.info.name, scene.info.howToGet));
+    return scene;
+}
+
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// Content lookup: the manifest of named scenes and the files that it names.
+// Content lookup: the folders that are searched, the manifest of named scenes (content/scenes.json) and the files that it names.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
+#include "scene/camera.h"
 
-namespace obscura::game {
+namespace obscura::app {
 
 // Folders that are searched, in this order: the source tree's content/ (or, installed, share/obscura beside the program's folder),
 // $OBSCURA_CONTENT, and shared/content beside the source tree.
@@ -16,6 +16,8 @@ std::vector<std::filesystem::path> contentFolders();
 std::optional<std::filesystem::path> findContent(const std::string& relative);
 // The first of these files in the first folder that has one.
 std::optional<std::filesystem::path> findContent(const std::vector<std::string>& relatives);
+// A file of the project's own, a manifest; throws Complaint if no folder has it.
+std::filesystem::path expectContent(const std::string& relative);
 
 // Toys of toasters.glb set down in a scene, without their tray.
 struct ToyGroup {
@@ -25,6 +27,7 @@ struct ToyGroup {
     float time = 0.0f;  // seconds ahead of the world
 };
 
+// An entry of the manifest.
 struct SceneInfo {
     std::string name, title;
     std::vector<std::string> files;  // any of these, relative to a content folder
@@ -38,7 +41,20 @@ struct SceneInfo {
     std::vector<ToyGroup> toys;
 };
 
-// content/scenes.json. Throws scene::Error or app::Complaint.
-std::vector<SceneInfo> loadManifest();
+// A scene and its files on this machine.
+struct SceneFile {
+    SceneInfo info;                                   // of a scene that is not named: its name only, the file's without extension
+    bool named = false;                               // in the manifest
+    std::filesystem::path file;                       // empty: not on this machine
+    std::optional<std::filesystem::path> flythrough;  // if the scene has one
+    std::optional<scene::Camera> camera() const;      // the manifest's own view
+};
 
-}  // namespace obscura::game
+// All scenes of the manifest, with or without files. Throws Complaint or scene::Error.
+std::vector<SceneFile> namedScenes();
+// A scene by its manifest name, whose file may be missing, or the path of a glTF file. Throws Complaint, which lists the known names.
+SceneFile findScene(const std::string& nameOrPath);
+// As findScene(), but throws Complaint if the file is missing.
+SceneFile expectScene(const std::string& nameOrPath);
+
+}  // namespace obscura::app
