@@ -5,8 +5,8 @@
 
 #include "app/complaint.h"
 #include "command.h"
-#include "false_colour.h"
 #include "gate.h"
+#include "measure/false_colour.h"
 
 namespace obscura::evaluate {
 namespace {
@@ -29,28 +29,28 @@ std::string parse(std::vector<const char*> words) {
 }
 
 TEST(FalseColour, lightnessGrowsWithErrorOfEitherSign) {
-    const auto lightness = [](Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; };
+    const auto lightness = [](measure::Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; };
     for (const float sign : {-1.0f, 1.0f}) {
         float before = -1.0f;
-        for (float e = 0.0f; e <= kErrorRange; e += kErrorRange / 16) {
-            const float now = lightness(errorColour(sign * e));
+        for (float e = 0.0f; e <= measure::kErrorRange; e += measure::kErrorRange / 16) {
+            const float now = lightness(measure::errorColour(sign * e));
             EXPECT_GT(now, before) << sign * e;
             before = now;
         }
     }
-    const Rgb dark = errorColour(-0.12f), bright = errorColour(0.12f);
+    const measure::Rgb dark = measure::errorColour(-0.12f), bright = measure::errorColour(0.12f);
     EXPECT_GT(dark.b, dark.r);
     EXPECT_GT(bright.r, bright.b);
-    const Rgb beyond = errorColour(-9.0f), end = errorColour(-kErrorRange);
+    const measure::Rgb beyond = measure::errorColour(-9.0f), end = measure::errorColour(-measure::kErrorRange);
     EXPECT_TRUE(beyond.r == end.r && beyond.g == end.g && beyond.b == end.b);
 }
 
 TEST(Candidates, methodsTimesPresets) {
-    const auto all = candidates({"all"}, {"all"}, {});
+    const auto all = measure::candidates({"all"}, {"all"}, {});
     size_t presets = 0;
     for (const ao::MethodInfo* info : ao::methods()) presets += info->presets.size();
     EXPECT_EQ(all.size(), presets);
-    const auto two = candidates({"hbao"}, {"default", "8x4"}, {"steps=5"});
+    const auto two = measure::candidates({"hbao"}, {"default", "8x4"}, {"steps=5"});
     ASSERT_EQ(two.size(), 2u);
     EXPECT_EQ(two[1].label(), "hbao 8x4 steps=5");
     EXPECT_EQ(two[1].fileName(), "hbao.8x4.steps_5");
@@ -59,13 +59,13 @@ TEST(Candidates, methodsTimesPresets) {
 }
 
 TEST(Candidates, errorsListValidNames) {
-    EXPECT_NE(complaintOf([] { candidates({"hbo"}, {"default"}, {}); }).find("did you mean hbao"), std::string::npos);
-    EXPECT_NE(complaintOf([] { candidates({"hbao"}, {"fast"}, {}); }).find("8x4"), std::string::npos);
-    EXPECT_NE(complaintOf([] { candidates({"hbao"}, {"default"}, {"step=4"}); }).find("did you mean steps"), std::string::npos);
-    EXPECT_NE(complaintOf([] { candidates({"hbao"}, {"default"}, {"steps=400"}); }).find("from 1 to 32"), std::string::npos);
-    EXPECT_NE(complaintOf([] { candidates({"hbao"}, {"default"}, {"none.steps=4"}); }).find("not among"), std::string::npos);
-    EXPECT_NE(complaintOf([] { falloffs({"quadric:2"}); }).find("did you mean quadratic"), std::string::npos);
-    EXPECT_NE(complaintOf([] { falloffs({"quadratic:-2"}); }).find("above 0"), std::string::npos);
+    EXPECT_NE(complaintOf([] { measure::candidates({"hbo"}, {"default"}, {}); }).find("did you mean hbao"), std::string::npos);
+    EXPECT_NE(complaintOf([] { measure::candidates({"hbao"}, {"fast"}, {}); }).find("8x4"), std::string::npos);
+    EXPECT_NE(complaintOf([] { measure::candidates({"hbao"}, {"default"}, {"step=4"}); }).find("did you mean steps"), std::string::npos);
+    EXPECT_NE(complaintOf([] { measure::candidates({"hbao"}, {"default"}, {"steps=400"}); }).find("from 1 to 32"), std::string::npos);
+    EXPECT_NE(complaintOf([] { measure::candidates({"hbao"}, {"default"}, {"none.steps=4"}); }).find("not among"), std::string::npos);
+    EXPECT_NE(complaintOf([] { measure::falloffs({"quadric:2"}); }).find("did you mean quadratic"), std::string::npos);
+    EXPECT_NE(complaintOf([] { measure::falloffs({"quadratic:-2"}); }).find("above 0"), std::string::npos);
 }
 
 TEST(Options, contradictionsAreErrors) {
@@ -88,7 +88,7 @@ TEST(Options, galleryShowsEverythingByDefault) {
     ASSERT_TRUE(options);
     EXPECT_EQ(options->job, Job::gallery);
     EXPECT_EQ(options->page, "gallery.html");
-    EXPECT_EQ(options->candidates.size(), candidates({"all"}, {"default"}, {}).size());
+    EXPECT_EQ(options->candidates.size(), measure::candidates({"all"}, {"default"}, {}).size());
     EXPECT_EQ(options->falloffs.size(), 2u);
     EXPECT_TRUE(options->reference.world && options->reference.screen);
 }

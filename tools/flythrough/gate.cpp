@@ -24,11 +24,11 @@ std::map<CalmKey, CalmRow> measureRows(const Calm& calm, const Options& options)
     settings.rays = calm.rays;
     settings.pictures = false;
     settings.cache = options.settings.cache;
-    evaluate::Machine machine({options.device, options.validation, options.verbose});
+    measure::Machine machine({options.device, options.validation, options.verbose});
     std::map<CalmKey, CalmRow> rows;
     for (const std::string& name : calm.flythroughs) {
         Flight flight(machine, findScript(name), settings);
-        for (const evaluate::Candidate& candidate : options.candidates)
+        for (const measure::Candidate& candidate : options.candidates)
             for (const ao::Preset& filter : ao::resolvePresets()) {
                 if (!candidate.info().needs) continue;  // `none` cannot flicker
                 if (std::find(calm.filters.begin(), calm.filters.end(), filter.id) == calm.filters.end()) continue;
@@ -130,7 +130,7 @@ int renewBaseline(const Options& options) {
     if (fs::is_regular_file(options.baseline, ignored)) calm = readCalm(options.baseline);
     const std::map<CalmKey, CalmRow> measured = measureRows(calm, options);
     // Replaces all rows, or those of the selected methods only.
-    if (options.candidates.size() == evaluate::candidates({"all"}, {"default"}, {}).size()) calm.rows.clear();
+    if (options.candidates.size() == measure::candidates({"all"}, {"default"}, {}).size()) calm.rows.clear();
     for (const auto& [key, row] : measured) calm.rows[key] = row;
     app::writeFile(options.baseline, calmText(calm));
     fmt::print("{}: {} rows, {} measured now\n", options.baseline.string(), calm.rows.size(), measured.size());

@@ -33,12 +33,12 @@ void finish(const std::vector<Part>& parts, const std::string& device, const Opt
 int fly(const Options& options) {
     const fs::path& out = options.settings.out;
     app::expectFolder(out / "parts");
-    evaluate::Machine machine({options.device, options.validation, options.verbose});
+    measure::Machine machine({options.device, options.validation, options.verbose});
     std::vector<Part> parts;
     for (const std::string& name : options.flythroughs) {
         Flight flight(machine, findScript(name), options.settings);
         if (options.settings.pictures) flight.writeReferencePictures();
-        for (const evaluate::Candidate& candidate : options.candidates)
+        for (const measure::Candidate& candidate : options.candidates)
             for (const ao::Preset* filter : options.filters) {
                 const Part wanted = flight.empty(candidate, *filter);
                 const fs::path file = out / "parts" / fmt::format("{}.{}-{}.json", wanted.name(), wanted.first, wanted.end);

@@ -1,4 +1,4 @@
-#include "references.h"
+#include "measure/references.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "app/complaint.h"
 #include "app/progress.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 using app::Complaint;
 
@@ -61,38 +61,37 @@ private:
     app::Progress m_progress;
 };
 
-std::string channelOf(const Options& options, const FalloffChoice& falloff, const truth::Picture* picture) {
-    if (!options.reference.channel.empty()) return options.reference.channel;
+std::string channelOf(const Measurement& what, const FalloffChoice& falloff, const truth::Picture* picture) {
+    if (!what.reference.channel.empty()) return what.reference.channel;
     const std::string world = "world." + falloff.fileName();
     return picture && !picture->find(world) && picture->find("screen." + falloff.fileName()) ? "screen." + falloff.fileName() : world;
 }
 
-void readStored(References& all, const Shot& shot, const Options& options) {
-    const std::string file = options.reference.file.string();
-    const truth::Picture picture = truth::readExr(options.reference.file);
+void readStored(References& all, const Shot& shot, const Measurement& what) {
+    const std::string file = what.reference.file.string();
+    const truth::Picture picture = truth::readExr(what.reference.file);
     const glm::uvec2 visible = shot.frame.visible();
     if (picture.width != visible.x || picture.height != visible.y)
         throw Complaint(fmt::format(
             "{}: is {} x {} pixels, but the frame's visible part is {} x {}", file, picture.width, picture.height, visible.x, visible.y));
-    for (const FalloffChoice& falloff : options.falloffs) {
-        const std::string channel = channelOf(options, falloff, &picture);
+    for (const FalloffChoice& falloff : what.falloffs) {
+        const std::string channel = channelOf(what, falloff, &picture);
         truth::Plane obscurance = picture.plane(channel);
         for (size_t i = 0; i < obscurance.values.size(); ++i)
             if (const float a = obscurance.values[i]; !(a >= -0.001f && a <= 1.001f))
                 throw Complaint(fmt::format(
                     "{}: {} is {} at pixel ({}, {}); obscurance must be in [0, 1]", file, channel, a, i % visible.x, i / visible.x));
-        all.list.push_back(
-            {options.reference.file.filename().string() + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
+        all.list.push_back({what.reference.file.filename().string() + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
     }
 }
 
 truth::Reference traceWorld(
-    const Shot& shot, const Options& options, const std::vector<truth::RayFalloff>& falloffs, truth::ReferenceCache& cache) {
+    const Shot& shot, const Measurement& what, const std::vector<truth::RayFalloff>& falloffs, truth::ReferenceCache& cache) {
     const std::vector<scene::PosedPrimitive> primitives = scene::pose(*shot.world, shot.time);
     truth::WorldGeometry geometry;
     geometry.skipMasked = shot.skipMasked;
     truth::WorldOptions rays;
-    setRays(rays, options.rays);
+    setRays(rays, what.rays);
     return cache.get(truth::worldKey(primitives, geometry, shot.frame, falloffs, rays), [&] {
         Bar bar("tracing the world reference of " + shot.scene);
         rays.progress = bar.callback();
@@ -100,10 +99,10 @@ truth::Reference traceWorld(
     });
 }
 
-truth::Reference traceScreen(Machine& machine, const Shot& shot, const Options& options, const std::vector<truth::RayFalloff>& falloffs,
+truth::Reference traceScreen(Machine& machine, const Shot& shot, const Measurement& what, const std::vector<truth::RayFalloff>& falloffs,
     truth::ReferenceCache& cache) {
     truth::ScreenOptions rays;
-    setRays(rays, options.rays);
+    setRays(rays, what.rays);
     return cache.get(truth::screenKey(shot.frame, falloffs, rays), [&] {
         Bar bar("tracing the screen reference of " + shot.scene);
         rays.progress = bar.callback();
@@ -113,32 +112,32 @@ truth::Reference traceScreen(Machine& machine, const Shot& shot, const Options& 
 
 }  // namespace
 
-void expectReferenceFile(const Options& options) {
-    if (options.reference.file.empty()) return;
-    const truth::Picture picture = truth::readExr(options.reference.file);
-    for (const FalloffChoice& falloff : options.falloffs) {
-        const std::string channel = channelOf(options, falloff, &picture);
+void expectReferenceFile(const Measurement& what) {
+    if (what.reference.file.empty()) return;
+    const truth::Picture picture = truth::readExr(what.reference.file);
+    for (const FalloffChoice& falloff : what.falloffs) {
+        const std::string channel = channelOf(what, falloff, &picture);
         if (picture.find(channel)) continue;
         std::vector<std::string> names;
         for (const truth::Picture::Channel& known : picture.channels) names.push_back(known.name);
-        throw Complaint(fmt::format("{}: no channel {} for {}; {} (--channel names one)", options.reference.file.string(), channel,
+        throw Complaint(fmt::format("{}: no channel {} for {}; {} (--channel names one)", what.reference.file.string(), channel,
             falloff.text, app::choices(channel, names)));
     }
 }
 
-References referencesOf(Machine& machine, const Shot& shot, const Options& options) {
+References referencesOf(Machine& machine, const Shot& shot, const Measurement& what) {
     References all;
-    all.fromCache = options.reference.world || options.reference.screen;
+    all.fromCache = what.reference.world || what.reference.screen;
     const double begun = app::now();
     std::vector<truth::RayFalloff> falloffs;
-    for (const FalloffChoice& falloff : options.falloffs) falloffs.push_back(truth::rayFalloff(falloff.falloff));
-    truth::ReferenceCache cache(options.rays.cache ? scene::cacheFolder() : std::filesystem::path(),
+    for (const FalloffChoice& falloff : what.falloffs) falloffs.push_back(truth::rayFalloff(falloff.falloff));
+    truth::ReferenceCache cache(what.rays.cache ? scene::cacheFolder() : std::filesystem::path(),
         [&](const std::string& line) { all.remarks.push_back(app::oneLine(line)); });
-    if (options.reference.world) append(all, "world", traceWorld(shot, options, falloffs, cache), options.falloffs);
-    if (options.reference.screen) append(all, "screen", traceScreen(machine, shot, options, falloffs, cache), options.falloffs);
-    if (!options.reference.file.empty()) readStored(all, shot, options);
+    if (what.reference.world) append(all, "world", traceWorld(shot, what, falloffs, cache), what.falloffs);
+    if (what.reference.screen) append(all, "screen", traceScreen(machine, shot, what, falloffs, cache), what.falloffs);
+    if (!what.reference.file.empty()) readStored(all, shot, what);
     all.seconds = (app::now() - begun) * 1e-3;
     return all;
 }
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "app/content.h"
-#include "machine.h"
-#include "options.h"
+#include "measure/machine.h"
+#include "measure/measurement.h"
 #include "scene/world.h"
 #include "truth/captured_frame.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 struct Shot {
     std::string scene;   // "sponza", or the captured file's stem
@@ -36,8 +36,8 @@ struct Shot {
 class LoadedScene {
 public:
     LoadedScene(Machine& machine, const std::string& nameOrPath);
-    // Draws the frame once; options give size, guard band, time and voxels. Empty if a default camera does not exist in the scene.
-    std::optional<Shot> shot(const Options& options, const CameraChoice& camera);
+    // Draws the frame once; `what` gives size, guard band, time and voxels. Empty if a default camera does not exist in the scene.
+    std::optional<Shot> shot(const Measurement& what, const CameraChoice& camera);
     size_t triangles() const { return m_world->triangleCount(); }
 
 private:
@@ -49,17 +49,17 @@ private:
 
 // Makes shots one after the other, so that one scene is in memory at a time.
 using TakeShot = std::function<void(Shot&)>;
-void forEachShot(Machine& machine, const Options& options, const TakeShot& take);
+void forEachShot(Machine& machine, const Measurement& what, const TakeShot& take);
 
 // A frame read back from render::Outputs: linear depth and packed normals, `size` with guard band.
 truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& camera, glm::uvec2 size, const std::vector<std::byte>& depth,
     const std::vector<std::byte>& normals);
 
 // The two sources of forEachShot().
-void captureShot(Machine& machine, const Options& options, const TakeShot& take);
-void sceneShots(Machine& machine, const Options& options, const TakeShot& take);
+void captureShot(Machine& machine, const Measurement& what, const TakeShot& take);
+void sceneShots(Machine& machine, const Measurement& what, const TakeShot& take);
 // Checks names and files of scenes and cameras without loading them. Throws app::Complaint.
-void expectScenes(const Options& options);
-size_t shotCount(const Options& options);
+void expectScenes(const Measurement& what);
+size_t shotCount(const Measurement& what);
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "app/complaint.h"
-#include "shot.h"
+#include "measure/shot.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 namespace fs = std::filesystem;
 using app::Complaint;
@@ -59,24 +59,24 @@ std::optional<scene::Camera> cameraFor(
     return scene::frame(scene::bounds(*world, time));
 }
 
-float timeOf(const Options& options, const CameraChoice& camera) {
-    return options.time ? *options.time : camera.kind == CameraChoice::Kind::path ? camera.at : 0.0f;
+float timeOf(const Measurement& what, const CameraChoice& camera) {
+    return what.time ? *what.time : camera.kind == CameraChoice::Kind::path ? camera.at : 0.0f;
 }
 
-render::FrameOptions frameOptions(const Options& options, const scene::Camera& camera, float time) {
+render::FrameOptions frameOptions(const Measurement& what, const scene::Camera& camera, float time) {
     render::FrameOptions frame;
-    frame.visible = {options.size.x, options.size.y};
-    frame.guard = options.guard;
+    frame.visible = {what.size.x, what.size.y};
+    frame.guard = what.guard;
     frame.camera = camera;
     frame.time = time;
     frame.view = render::View::visibility;  // without lighting
-    frame.skipMasked = options.skipMasked;
-    frame.voxels = options.voxels;
+    frame.skipMasked = what.skipMasked;
+    frame.voxels = what.voxels;
     return frame;
 }
 
 // Draws the frame once, without obscurance, and reads it back.
-void capture(Machine& machine, const Options& options, const scene::World& world, const render::FrameOptions& wanted, Shot& shot) {
+void capture(Machine& machine, const Measurement& what, const scene::World& world, const render::FrameOptions& wanted, Shot& shot) {
     const ao::Values none(*ao::methods()[0]);
     glm::uvec2 size(0);
     const Machine::Ran ran = machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
@@ -87,7 +87,7 @@ void capture(Machine& machine, const Options& options, const scene::World& world
         size = {graph.desc(outputs.linearDepth).width, graph.desc(outputs.linearDepth).height};
         return std::vector{outputs.linearDepth, outputs.normals};
     });
-    shot.frame = capturedFrame(options.size, wanted.camera, size, ran.images[0], ran.images[1]);
+    shot.frame = capturedFrame(what.size, wanted.camera, size, ran.images[0], ran.images[1]);
     shot.frame.check(shot.scene + " " + shot.camera);
     for (const graph::PassTime& pass : ran.passes)
         if (!pass.name.starts_with("prepare.")) shot.framePasses.push_back(pass.name);
@@ -108,14 +108,14 @@ truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& came
     return frame;
 }
 
-void expectScenes(const Options& options) {
-    for (const std::string& scene : options.scenes) {
+void expectScenes(const Measurement& what) {
+    for (const std::string& scene : what.scenes) {
         const app::SceneFile file = app::expectScene(scene);
-        for (const CameraChoice& camera : options.cameras) cameraFor(camera, file, nullptr, 0.0f, options.usualCameras);
+        for (const CameraChoice& camera : what.cameras) cameraFor(camera, file, nullptr, 0.0f, what.usualCameras);
     }
 }
 
-size_t shotCount(const Options& options) { return options.capture.empty() ? options.scenes.size() * options.cameras.size() : 1; }
+size_t shotCount(const Measurement& what) { return what.capture.empty() ? what.scenes.size() * what.cameras.size() : 1; }
 
 LoadedScene::LoadedScene(Machine& machine, const std::string& name)
     : m_machine(machine), m_file(app::expectScene(name)), m_world(std::make_shared<scene::World>()) {
@@ -128,18 +128,18 @@ LoadedScene::LoadedScene(Machine& machine, const std::string& name)
     m_seconds = (app::now() - begun) * 1e-3;
 }
 
-std::optional<Shot> LoadedScene::shot(const Options& options, const CameraChoice& choice) {
+std::optional<Shot> LoadedScene::shot(const Measurement& what, const CameraChoice& choice) {
     const double begun = app::now();
     Shot shot;
     shot.scene = m_file.info.name;
     shot.camera = choice.text;
-    shot.time = timeOf(options, choice);
-    const auto camera = cameraFor(choice, m_file, m_world.get(), shot.time, options.usualCameras);
+    shot.time = timeOf(what, choice);
+    const auto camera = cameraFor(choice, m_file, m_world.get(), shot.time, what.usualCameras);
     if (!camera) return std::nullopt;
-    const render::FrameOptions wanted = frameOptions(options, *camera, shot.time);
-    capture(m_machine, options, *m_world, wanted, shot);
+    const render::FrameOptions wanted = frameOptions(what, *camera, shot.time);
+    capture(m_machine, what, *m_world, wanted, shot);
     shot.world = m_world;
-    shot.skipMasked = options.skipMasked;
+    shot.skipMasked = what.skipMasked;
     shot.library = &m_machine.renderer().library();
     shot.add = [&renderer = m_machine.renderer(), world = m_world, wanted](
                    graph::Graph& graph, const Candidate& candidate, const ao::Falloff& falloff, uint32_t index) {
@@ -155,12 +155,12 @@ std::optional<Shot> LoadedScene::shot(const Options& options, const CameraChoice
     return shot;
 }
 
-void sceneShots(Machine& machine, const Options& options, const TakeShot& take) {
-    for (const std::string& name : options.scenes) {
+void sceneShots(Machine& machine, const Measurement& what, const TakeShot& take) {
+    for (const std::string& name : what.scenes) {
         LoadedScene scene(machine, name);
-        for (const CameraChoice& choice : options.cameras)
-            if (auto shot = scene.shot(options, choice)) take(*shot);
+        for (const CameraChoice& choice : what.cameras)
+            if (auto shot = scene.shot(what, choice)) take(*shot);
     }
 }
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

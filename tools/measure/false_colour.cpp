@@ -1,4 +1,4 @@
-#include "false_colour.h"
+#include "measure/false_colour.h"
 
 #include <algorithm>
 #include <cassert>
@@ -6,7 +6,7 @@
 
 #include "post/false_colour.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 namespace {
 
@@ -46,4 +46,4 @@ app::Picture errorPicture(const truth::Plane& visibility, const truth::Plane& re
     return paint(visibility, [&](size_t i) { return errorColour(visibility.values[i] - reference.values[i]); });
 }
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

@@ -1,8 +1,8 @@
-#include "arguments.h"
+#include "measure/arguments.h"
 
 #include "app/arguments.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 CLI::Option* takeAll(CLI::Option* option) {
     return option->delimiter(',')->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -42,4 +42,4 @@ std::string commandOf(const char* program, int argc, const char* const* argv) {
     return command;
 }
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

@@ -1,4 +1,4 @@
-#include "candidate.h"
+#include "measure/candidate.h"
 
 #include <algorithm>
 #include <cctype>
@@ -11,7 +11,7 @@
 #include "app/complaint.h"
 #include "app/voxel_arguments.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 using app::Complaint;
 
@@ -232,4 +232,4 @@ std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts) {
     return list;
 }
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

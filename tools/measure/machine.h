@@ -1,4 +1,4 @@
-// Device, renderer, library and graph of a measurement; renders frames, reads images back and collects pass times.
+// What a measurement draws with: renderer, library and screen reference. Renders frames, reads images back and collects pass times.
 #pragma once
 
 #include <functional>
@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "ao/library.h"
-#include "app/frames.h"
-#include "render/renderer.h"
+#include "app/graphics.h"
 #include "truth/screen_reference.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
-class Machine {
+class Machine : public app::Graphics {
 public:
     struct Choice {
         std::string device, validation = "off";
@@ -22,12 +21,8 @@ public:
     explicit Machine(const Choice& choice);  // throws app::Complaint
     ~Machine();
 
-    gpu::Device& device() { return *m_device; }
-    const std::string& deviceName() const { return m_device->caps().deviceName; }
     // A new renderer for a scene, so that no state of an earlier scene affects it. Destroys the last one.
     render::Renderer& newRenderer();
-    // A renderer owned by the caller; it must be destroyed before the machine.
-    std::unique_ptr<render::Renderer> makeRenderer();
     render::Renderer& renderer() { return *m_renderer; }
     // Created on first use; throw app::Complaint.
     ao::Library& library();  // for captured frames
@@ -46,15 +41,9 @@ public:
     Ran run(uint32_t warmUp, uint32_t timed, const Declare& declare);
 
 private:
-    void expect(gpu::Status status, const char* doing) const;
-    std::vector<std::string> m_messages;  // warnings and errors so far
-    std::unique_ptr<gpu::Device> m_device;
-    gpu::ShaderLibrary m_shaders;
-    std::unique_ptr<graph::Graph> m_graph;
-    std::unique_ptr<app::Frames> m_frames;
     std::unique_ptr<render::Renderer> m_renderer;
     std::unique_ptr<ao::Library> m_library;
     std::unique_ptr<truth::ScreenReference> m_screen;
 };
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

@@ -1,10 +1,10 @@
 // References of a shot: rendered (and cached) or read from a file.
 #pragma once
 
-#include "shot.h"
+#include "measure/shot.h"
 #include "truth/cache.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 struct ShotReference {
     std::string kind;         // "world", "screen", or "FILE.exr:CHANNEL"
@@ -23,9 +23,9 @@ struct References {
 };
 
 // Throws app::Complaint or scene::Error.
-References referencesOf(Machine& machine, const Shot& shot, const Options& options);
+References referencesOf(Machine& machine, const Shot& shot, const Measurement& what);
 
 // Checks that the reference file can be read and has a channel for every falloff.
-void expectReferenceFile(const Options& options);
+void expectReferenceFile(const Measurement& what);
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

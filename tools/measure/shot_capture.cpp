@@ -9,9 +9,9 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "app/complaint.h"
-#include "shot.h"
+#include "measure/shot.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 namespace fs = std::filesystem;
 using app::Complaint;
@@ -111,20 +111,20 @@ graph::ImageId import(graph::Graph& graph, const char* name, const gpu::Image& i
 
 }  // namespace
 
-void captureShot(Machine& machine, const Options& options, const TakeShot& take) {
+void captureShot(Machine& machine, const Measurement& what, const TakeShot& take) {
     const double begun = app::now();
-    expectFile("--capture", options.capture);
-    expectFile("--camera", options.captureCamera);
+    expectFile("--capture", what.capture);
+    expectFile("--camera", what.captureCamera);
     Shot shot;
-    shot.scene = options.capture.stem().stem().string();
+    shot.scene = what.capture.stem().stem().string();
     shot.camera = "capture";
-    shot.frame = Linked(options.capture, options.captureCamera).read();
+    shot.frame = Linked(what.capture, what.captureCamera).read();
     if (!shot.frame.hasNormals()) {
         shot.frame.reconstructNormals();
         shot.remark = "no normals in the capture: reconstructed from depth";
     }
     constexpr uint32_t kNotCaptured = ao::kMotion | ao::kLayers | ao::kVolume;
-    for (const Candidate& candidate : options.candidates)
+    for (const Candidate& candidate : what.candidates)
         if (ao::needs(candidate.values) & kNotCaptured & ~uint32_t(ao::kMotion))
             throw Complaint(
                 fmt::format("--method {}: needs depth layers or a volume, which a captured frame does not have; measure it on a --scene",
@@ -144,8 +144,8 @@ void captureShot(Machine& machine, const Options& options, const TakeShot& take)
     take(shot);
 }
 
-void forEachShot(Machine& machine, const Options& options, const TakeShot& take) {
-    options.capture.empty() ? sceneShots(machine, options, take) : captureShot(machine, options, take);
+void forEachShot(Machine& machine, const Measurement& what, const TakeShot& take) {
+    what.capture.empty() ? sceneShots(machine, what, take) : captureShot(machine, what, take);
 }
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

@@ -8,7 +8,7 @@
 #include "ao/method.h"
 #include "render/voxel_volume.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 // A candidate's voxelization, replacing that of the run: settings voxels, voxel_size, voxelizer, voxel_structure, voxel_shell.
 struct VoxelChoice {
@@ -46,4 +46,4 @@ struct FalloffChoice {
 };
 std::vector<FalloffChoice> falloffs(const std::vector<std::string>& texts);  // throws app::Complaint
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure

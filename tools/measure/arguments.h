@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "candidate.h"
+#include "measure/candidate.h"
 
-namespace obscura::evaluate {
+namespace obscura::measure {
 
 // An option that takes a list with commas, and may be repeated.
 CLI::Option* takeAll(CLI::Option* option);
@@ -25,4 +25,4 @@ void addDevice(CLI::App& cli, std::string& device, std::string& validation, bool
 // The command line for results: without --out, --table, --compare and --device, which name local files and devices.
 std::string commandOf(const char* program, int argc, const char* const* argv);
 
-}  // namespace obscura::evaluate
+}  // namespace obscura::measure
