@@ -63,7 +63,7 @@ std::string galleryPage(const std::vector<ShotResult>& shots, const Options& opt
     data["shots"] = Json::array();
     for (const ShotResult& shot : shots) data["shots"].push_back(shotJson(shot, options, about));
 
-    return app::page(kPageHtml, kPageCss, kPageJs, data.dump());
+    return app::page({"Obscura: accuracy gallery", app::PageSource::Pictures::embedded, kPageHtml, kPageCss, kPageJs}, data.dump());
 }
 
 }  // namespace obscura::evaluate

@@ -137,7 +137,8 @@ void writeReport(const std::vector<Part>& parts, const std::string& device, cons
     for (const Part& part : parts) json["parts"].push_back(summaryJson(part));
     app::writeFile(out / "report.json", json.dump(1) + "\n");
     app::writeFile(out / "report.md", markdown(parts));
-    app::writeFile(out / "report.html", app::page(kPageHtml, kPageCss, kPageJs, json.dump()));
+    const app::PageSource page{"Obscura: flythroughs", app::PageSource::Pictures::files, kPageHtml, kPageCss, kPageJs};
+    app::writeFile(out / "report.html", app::page(page, json.dump()));
 }
 
 void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
