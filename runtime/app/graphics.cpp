@@ -42,7 +42,7 @@ Graphics::Graphics(const Choice& choice) {
     m_shaders.add(render::shaders());
     m_graph = std::make_unique<graph::Graph>(*m_device);
     m_frames = std::make_unique<Frames>(*m_device);
-    if (!m_frames->good()) expect(gpu::Status::outOfMemory, "making the frames in flight");
+    if (!m_frames->valid()) expect(gpu::Status::outOfMemory, "making the frames in flight");
 }
 
 Graphics::~Graphics() { waitIdle(); }

@@ -173,21 +173,21 @@ std::string Flight::keyOf(const measure::Candidate& candidate, const ao::Preset&
     return hash.hex();
 }
 
-Part Flight::empty(const measure::Candidate& candidate, const ao::Preset& filter) const {
-    Part part;
-    part.flythrough = m_stage.script().name;
-    part.method = candidate.info().id;
-    part.preset = candidate.preset;
-    for (const std::string& setting : candidate.settings) part.settings += (part.settings.empty() ? "" : " ") + setting;
-    part.filter = filter.id;
-    part.falloff = m_falloff.text;
-    part.width = m_settings.size.x;
-    part.height = m_settings.size.y;
-    part.rays = m_settings.rays;
-    part.first = m_settings.first;
-    part.end = m_settings.end;
-    part.key = keyOf(candidate, filter);
-    return part;
+Chunk Flight::empty(const measure::Candidate& candidate, const ao::Preset& filter) const {
+    Chunk chunk;
+    chunk.flythrough = m_stage.script().name;
+    chunk.method = candidate.info().id;
+    chunk.preset = candidate.preset;
+    for (const std::string& setting : candidate.settings) chunk.settings += (chunk.settings.empty() ? "" : " ") + setting;
+    chunk.filter = filter.id;
+    chunk.falloff = m_falloff.text;
+    chunk.width = m_settings.size.x;
+    chunk.height = m_settings.size.y;
+    chunk.rays = m_settings.rays;
+    chunk.first = m_settings.first;
+    chunk.end = m_settings.end;
+    chunk.key = keyOf(candidate, filter);
+    return chunk;
 }
 
 Flight::Drawn Flight::draw(const measure::Candidate& candidate, uint32_t frame, bool cut) {
@@ -207,18 +207,18 @@ Flight::Drawn Flight::draw(const measure::Candidate& candidate, uint32_t frame, 
     return drawn;
 }
 
-Part Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter) {
+Chunk Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter) {
     const measure::Candidate candidate = filtered(chosen, filter);
-    Part part = empty(chosen, filter);
+    Chunk chunk = empty(chosen, filter);
     m_machine.expectMethod(m_renderer->library(), candidate.info());
-    const std::filesystem::path folder = m_settings.out / "frames" / part.name();
+    const std::filesystem::path folder = m_settings.out / "frames" / chunk.name();
     if (m_settings.pictures) {
-        part.pictures = "frames/" + part.name();
+        chunk.pictures = "frames/" + chunk.name();
         app::expectFolder(folder);
     }
     std::map<std::string, app::Series> times;
     std::vector<truth::Plane> pictures;
-    app::Progress progress(part.name(), m_geometry.size() + (m_settings.still && m_settings.first == 0 ? kStillWarmUp + kStillFrames : 0));
+    app::Progress progress(chunk.name(), m_geometry.size() + (m_settings.still && m_settings.first == 0 ? kStillWarmUp + kStillFrames : 0));
     for (uint32_t frame = 0; frame < m_geometry.size(); ++frame) {
         progress.at(frame);
         Drawn drawn = draw(candidate, frame, frame == 0);
@@ -250,14 +250,14 @@ Part Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter)
             row.flickerOfError = change.flickerOfError;
             row.referenceFlicker = change.referenceFlicker;
         }
-        part.frames.push_back(row);
+        chunk.frames.push_back(row);
         if (m_settings.pictures) app::writePng(pictureFile(folder, frame), measure::greyPicture(picture));
     }
     for (const uint32_t event : m_events) {
         const std::span<const truth::Plane> after(pictures.begin() + event, pictures.begin() + endOfState(event));
         const truth::Lag lag = truth::lag(pictures[event - 1], after, m_references[event - 1].visibility, m_references[event].visibility,
             truth::stayed(m_geometry[event - 1].frame, m_geometry[event].frame));
-        part.events.push_back({event, uint32_t(lag.pixels), lag.t90, lag.ghost});
+        chunk.events.push_back({event, uint32_t(lag.pixels), lag.t90, lag.ghost});
     }
     if (m_settings.still && m_settings.first == 0) {
         truth::StaticNoise noise;
@@ -267,10 +267,10 @@ Part Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter)
             if (i >= kStillWarmUp) noise.add(drawn.visibility);
         }
         const truth::StaticNoise::Result spread = noise.over(m_geometry[0].visible);
-        part.still = StaticRow{spread.mean, spread.p99};
+        chunk.still = StaticRow{spread.mean, spread.p99};
     }
-    for (const auto& [pass, series] : times) part.passes.push_back({pass, series.median(), series.p95()});
-    return part;
+    for (const auto& [pass, series] : times) chunk.passes.push_back({pass, series.median(), series.p95()});
+    return chunk;
 }
 
 void Flight::writeReferencePictures() const {

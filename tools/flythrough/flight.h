@@ -1,9 +1,9 @@
 // Renders the frames of a flythrough with a method and measures errors, flicker, noise and lag.
 #pragma once
 
+#include "chunk.h"
 #include "measure/candidate.h"
 #include "measure/machine.h"
-#include "part.h"
 #include "script.h"
 #include "truth/stability.h"
 
@@ -34,9 +34,9 @@ public:
     Flight(measure::Machine& machine, const Script& script, const Settings& settings);
     // Hash of everything that determines a chunk's rows.
     std::string keyOf(const measure::Candidate& candidate, const ao::Preset& filter) const;
-    Part measure(const measure::Candidate& candidate, const ao::Preset& filter);
+    Chunk measure(const measure::Candidate& candidate, const ao::Preset& filter);
     // A chunk with its key and names, but without rows.
-    Part empty(const measure::Candidate& candidate, const ao::Preset& filter) const;
+    Chunk empty(const measure::Candidate& candidate, const ao::Preset& filter) const;
     void writeReferencePictures() const;  // out/frames/NAME.reference
     const Script& script() const { return m_stage.script(); }
 

@@ -22,9 +22,9 @@ void setFrames(const std::string& text, Settings& settings) {
     settings.end = settings.length;
     if (text.empty()) return;
     const std::vector<float> range = app::numbers(text, ':');
-    const bool good = range.size() == 2 && range[0] >= 0.0f && range[0] < range[1] && range[0] == float(uint32_t(range[0])) &&
-                      range[1] == float(uint32_t(range[1]));
-    if (!good || range[1] > float(settings.length))
+    const bool valid = range.size() == 2 && range[0] >= 0.0f && range[0] < range[1] && range[0] == float(uint32_t(range[0])) &&
+                       range[1] == float(uint32_t(range[1]));
+    if (!valid || range[1] > float(settings.length))
         throw Complaint(fmt::format(
             "--frames {}: write FIRST:END, such as 0:16; the flythrough has frames 0 to {} (--length)", text, settings.length - 1));
     settings.first = uint32_t(range[0]);
@@ -166,12 +166,12 @@ std::string jobList(const Options& options) {
         return fmt::format("{}{} --no-video --frames {}:{} --out {}", options.program, options.arguments, first, end,
             app::shellWord(fmt::format("{}/part-{}", out, job)));
     };
-    std::string parts, commands;
+    std::string folders, commands;
     for (uint32_t job = 0; job < options.jobs; ++job) {
-        parts += fmt::format("{}{}/part-{}", job ? "," : "", out, job);
+        folders += fmt::format("{}{}/part-{}", job ? "," : "", out, job);
         commands += options.slurm ? fmt::format("  {}) {} ;;\n", job, command(job)) : command(job) + "\n";
     }
-    const std::string merge = fmt::format("{} --merge {} --out {}", options.program, app::shellWord(parts), app::shellWord(out));
+    const std::string merge = fmt::format("{} --merge {} --out {}", options.program, app::shellWord(folders), app::shellWord(out));
     if (!options.slurm) return commands + "# then: " + merge + "\n";
     return fmt::format(
         "#!/bin/sh\n#SBATCH --job-name=obscura-flythrough\n#SBATCH --array=0-{}\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n# then: {}\n",

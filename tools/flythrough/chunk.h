@@ -1,4 +1,4 @@
-// A chunk of a run (Part): measurements of one method on some or all frames of one flythrough. Saved as a file in OUT/parts, so that runs
+// A chunk of a run: measurements of one method on some or all frames of one flythrough. Saved as a file in OUT/parts, so that runs
 // can be resumed and split over machines. Everything but `passes` is deterministic.
 #pragma once
 
@@ -32,7 +32,7 @@ struct PassRow {
     double median = 0.0, p95 = 0.0;
 };  // ms
 
-struct Part {
+struct Chunk {
     std::string key;  // hash of everything that determines the rows
     std::string flythrough, method, preset, settings, filter, falloff;
     uint32_t width = 0, height = 0, rays = 0;
@@ -58,21 +58,21 @@ struct Summary {
     double milliseconds = 0.0;                            // sum of the medians of its passes
     uint32_t worst = 0;                                   // frame of the largest eA
 };
-Summary summarize(const Part& part);
+Summary summarize(const Chunk& chunk);
 
-std::string partText(const Part& part);
+std::string chunkText(const Chunk& chunk);
 // Empty if the file is missing or not a chunk.
-std::optional<Part> readPart(const std::filesystem::path& file);
+std::optional<Chunk> readChunk(const std::filesystem::path& file);
 
 // Joins chunks of the same flythrough, method and filter, frames in order. Throws app::Complaint if keys differ or frames are missing or
 // double.
-std::vector<Part> joined(std::vector<Part> parts);
+std::vector<Chunk> joined(std::vector<Chunk> chunks);
 
 // CSV with a header line: one line per frame, event, static measurement, pass. The first three do not depend on how the run was split, byte
 // for byte.
-std::string framesCsv(const std::vector<Part>& parts);
-std::string eventsCsv(const std::vector<Part>& parts);
-std::string staticCsv(const std::vector<Part>& parts);
-std::string passesCsv(const std::vector<Part>& parts);
+std::string framesCsv(const std::vector<Chunk>& chunks);
+std::string eventsCsv(const std::vector<Chunk>& chunks);
+std::string staticCsv(const std::vector<Chunk>& chunks);
+std::string passesCsv(const std::vector<Chunk>& chunks);
 
 }  // namespace obscura::flythrough

@@ -10,8 +10,8 @@
 namespace obscura::flythrough {
 namespace {
 
-Part part(uint32_t first, uint32_t end) {
-    Part p;
+Chunk chunk(uint32_t first, uint32_t end) {
+    Chunk p;
     p.key = "abc";
     p.flythrough = "round";
     p.method = "hbao";
@@ -29,47 +29,47 @@ Part part(uint32_t first, uint32_t end) {
     return p;
 }
 
-TEST(Parts, roundTripsThroughItsFile) {
-    const auto file = std::filesystem::temp_directory_path() / "obscura-part-test.json";
-    const Part written = part(0, 5);
-    std::ofstream(file) << partText(written);
-    const auto read = readPart(file);
+TEST(Chunks, roundTripsThroughItsFile) {
+    const auto file = std::filesystem::temp_directory_path() / "obscura-chunk-test.json";
+    const Chunk written = chunk(0, 5);
+    std::ofstream(file) << chunkText(written);
+    const auto read = readChunk(file);
     ASSERT_TRUE(read);
-    EXPECT_EQ(partText(*read), partText(written));
+    EXPECT_EQ(chunkText(*read), chunkText(written));
     EXPECT_EQ(framesCsv({*read}), framesCsv({written}));
-    std::ofstream(file) << partText(written).substr(0, 100);
-    EXPECT_FALSE(readPart(file));
+    std::ofstream(file) << chunkText(written).substr(0, 100);
+    EXPECT_FALSE(readChunk(file));
     std::filesystem::remove(file);
-    EXPECT_FALSE(readPart(file));
+    EXPECT_FALSE(readChunk(file));
 }
 
-TEST(Parts, joinInAnyOrder) {
-    const std::vector<Part> whole = joined({part(4, 6), part(0, 4)});
+TEST(Chunks, joinInAnyOrder) {
+    const std::vector<Chunk> whole = joined({chunk(4, 6), chunk(0, 4)});
     ASSERT_EQ(whole.size(), 1u);
     EXPECT_EQ(whole[0].frames.size(), 6u);
-    EXPECT_EQ(framesCsv(whole), framesCsv({part(0, 6)}));
+    EXPECT_EQ(framesCsv(whole), framesCsv({chunk(0, 6)}));
     EXPECT_TRUE(whole[0].still);
     EXPECT_EQ(whole[0].events.size(), 1u);
 }
 
-TEST(Parts, gapsOverlapsAndOtherSettingsAreErrors) {
-    const auto complaint = [](std::vector<Part> parts) {
+TEST(Chunks, gapsOverlapsAndOtherSettingsAreErrors) {
+    const auto complaint = [](std::vector<Chunk> chunks) {
         try {
-            joined(std::move(parts));
+            joined(std::move(chunks));
             return std::string();
         } catch (const app::Complaint& c) {
             return std::string(c.what());
         }
     };
-    EXPECT_NE(complaint({part(0, 4), part(5, 6)}).find("missing"), std::string::npos);
-    EXPECT_NE(complaint({part(0, 4), part(3, 6)}).find("twice"), std::string::npos);
-    Part other = part(4, 6);
+    EXPECT_NE(complaint({chunk(0, 4), chunk(5, 6)}).find("missing"), std::string::npos);
+    EXPECT_NE(complaint({chunk(0, 4), chunk(3, 6)}).find("twice"), std::string::npos);
+    Chunk other = chunk(4, 6);
     other.key = "other";
-    EXPECT_NE(complaint({part(0, 4), other}).find("different settings"), std::string::npos);
+    EXPECT_NE(complaint({chunk(0, 4), other}).find("different settings"), std::string::npos);
 }
 
-TEST(Parts, summaryIgnoresTheFirstFrame) {
-    const Summary s = summarize(part(0, 5));
+TEST(Chunks, summaryIgnoresTheFirstFrame) {
+    const Summary s = summarize(chunk(0, 5));
     EXPECT_NEAR(s.eA, 0.2, 1e-6);
     EXPECT_NEAR(s.difference, 0.04, 1e-6);
     EXPECT_NEAR(s.excess, 0.03, 1e-6);
@@ -77,19 +77,19 @@ TEST(Parts, summaryIgnoresTheFirstFrame) {
     EXPECT_NEAR(s.referenceFlicker, 0.015, 1e-6);
     EXPECT_EQ(s.worst, 4u);
     EXPECT_EQ(s.milliseconds, 2.0);
-    EXPECT_EQ(summarize(part(4, 6)).t90, 3u);
+    EXPECT_EQ(summarize(chunk(4, 6)).t90, 3u);
 }
 
-TEST(Calm, roundTripsAndFailsWhenWorse) {
-    Calm baseline;
-    const CalmKey hbao{"hbao", "default", "teleport", "temporal"};
+TEST(FlickerBaseline, roundTripsAndFailsWhenWorse) {
+    FlickerBaseline baseline;
+    const FlickerKey hbao{"hbao", "default", "teleport", "temporal"};
     baseline.rows[hbao] = {0.0100, 0.0010, 4};
-    const auto file = std::filesystem::temp_directory_path() / "obscura-calm-test.json";
-    std::ofstream(file) << calmText(baseline);
-    EXPECT_EQ(calmText(readCalm(file)), calmText(baseline));
+    const auto file = std::filesystem::temp_directory_path() / "obscura-flicker-test.json";
+    std::ofstream(file) << baselineText(baseline);
+    EXPECT_EQ(baselineText(readBaseline(file)), baselineText(baseline));
     std::filesystem::remove(file);
 
-    const auto lines = [&](CalmRow row) { return judge(baseline, {{hbao, row}}).size(); };
+    const auto lines = [&](FlickerRow row) { return judge(baseline, {{hbao, row}}).size(); };
     EXPECT_EQ(lines({0.0100, 0.0010, 4}), 0u);
     EXPECT_EQ(lines({0.0104, 0.0010, 4}), 0u);
     EXPECT_EQ(lines({0.0106, 0.0010, 4}), 1u);
