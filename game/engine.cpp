@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 #include <cstdlib>
 
-#include <fmt/format.h>
-
-#include "app/complaint.h"
-#include "app/files.h"
 #include "app/progress.h"
 #include "gpu/compiler/compile.h"
 
 namespace obscura::game {
 
 namespace fs = std::filesystem;
-using app::Complaint;
 
 namespace {
 
@@ -27,75 +21,38 @@ uint32_t warmUpSide(uint32_t side) {
     return tiny;
 }
 
-fs::path pipelineCacheFile(const Options& options) {
-    if (options.noPipelineCache) return {};
-    if (!options.pipelineCache.empty()) return options.pipelineCache;
-    const fs::path folder = app::cacheFolder();
-    return folder.empty() ? fs::path() : folder / "pipelines.bin";
+app::Graphics::Choice graphicsOf(const Options& options, const app::Window* window) {
+    fs::path cache;
+    if (!options.noPipelineCache)
+        cache = options.pipelineCache.empty() ? app::Graphics::pipelineCacheFile() : fs::path(options.pipelineCache);
+    return {options.device, options.validation, options.verbose, "obscura", cache, options.noPresent ? nullptr : window};
 }
 
 }  // namespace
 
-Engine::Engine(const Options& options, app::Window* window) : m_verbose(options.verbose) {
-    const double begun = app::now();
-    const fs::path cache = pipelineCacheFile(options);
-    std::error_code ignored;
-    started.cacheFound = !cache.empty() && fs::is_regular_file(cache, ignored);
-    gpu::DeviceOptions wanted;
-    wanted.name = options.device;
-    wanted.validation = options.validation != "off";
-    wanted.synchronization = options.validation == "sync";
-    wanted.pipelineCacheFile = cache.string();
-    if (window && !options.noPresent) {
-        wanted.instanceExtensions = window->instanceExtensions();
-        wanted.presentation = true;
-    }
-    wanted.log = [this](gpu::Severity severity, const char* message) {
-        const std::string line = app::oneLine(message);
-        if (severity != gpu::Severity::info) m_messages.push_back(line);
-        // Not printed by default: a failure is one line, which ends with the last of these messages.
-        if (m_verbose || line.starts_with("validation")) std::fprintf(stderr, "obscura: %s\n", line.c_str());
-    };
-    std::string error;
-    m_device = gpu::Device::create(wanted, error);
-    if (!m_device)
-        throw Complaint(fmt::format("no device: {}", app::oneLine(error)), options.device.empty() ? app::kFailed : app::kBadInput);
+Engine::Engine(const Options& options, const app::Window* window) : Engine(options, window, app::now()) {}
+
+Engine::Engine(const Options& options, const app::Window* window, double begun) : Graphics(graphicsOf(options, window)) {
+    started.cacheFound = pipelineCacheFound();
     started.device = (app::now() - begun) * 1e-3;
 
     const double pipelinesBegun = app::now();
-    m_shaders.add(ao::shaders());
-    m_shaders.add(render::shaders());
     const char* named = std::getenv("OBSCURA_SHADERS");
     const fs::path sources = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / "shaders";
+    std::error_code ignored;
     if (fs::is_directory(sources, ignored)) {
-        m_shaders.watch(sources, gpu::compileShader);
+        shaders().watch(sources, gpu::compileShader);
         m_reloads = true;
     }
-    m_renderer = render::Renderer::create(*m_device, m_shaders);
-    if (!m_renderer) expect(gpu::Status::shaderError, "making the renderer");
-    m_graph = std::make_unique<graph::Graph>(*m_device);
-    m_frames = std::make_unique<app::Frames>(*m_device);
-    if (!m_frames->good()) expect(gpu::Status::outOfMemory, "making the frames in flight");
-    m_capture = std::make_unique<app::Capture>(*m_device);
+    m_renderer = makeRenderer();
+    m_capture = std::make_unique<app::Capture>(device());
     started.pipelines = (app::now() - pipelinesBegun) * 1e-3;
 }
 
-Engine::~Engine() {
-    if (m_frames) m_frames->wait();
-    if (m_device) m_device->waitIdle();
-}
-
-void Engine::expect(gpu::Status status, const char* doing) const {
-    if (status == gpu::Status::ok) return;
-    const std::string last = m_messages.empty() ? "" : ": " + m_messages.back();
-    const char* advice = status == gpu::Status::outOfMemory  ? "; try a smaller --size"
-                         : status == gpu::Status::deviceLost ? "; try again, or another --device"
-                                                             : "";
-    throw Complaint(fmt::format("{}: {} while {}{}{}", m_device->caps().deviceName, gpu::name(status), doing, last, advice), app::kFailed);
-}
+Engine::~Engine() { waitIdle(); }
 
 void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& values, const ao::Values* compare, render::View view) {
-    expect(m_frames->begin(*m_graph), "warming up");
+    expect(frames().begin(graph()), "warming up");
     render::FrameOptions frame;
     frame.visible = {warmUpSide(options.size.width), warmUpSide(options.size.height)};
     frame.guard = options.guard;
@@ -106,9 +63,9 @@ void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& v
     frame.view = view;
     frame.cut = true;
     frame.voxels = options.voxels;
-    const render::Outputs outputs = m_renderer->add(*m_graph, stage.world, frame);
-    m_graph->output(outputs.color);
-    expect(m_frames->end(*m_graph), "warming up");
+    const render::Outputs outputs = m_renderer->add(graph(), stage.world, frame);
+    graph().output(outputs.color);
+    expect(frames().end(graph()), "warming up");
 }
 
 void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
@@ -145,7 +102,7 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
     }
     const ao::Values* compare = options.compare ? &options.compare->values() : nullptr;
     if (options.view != render::View::pass) frameOnce(options, stage, options.choice.values(), compare, options.view);
-    expect(m_frames->wait(), "warming up");
+    expect(frames().wait(), "warming up");
     started.warmUp = (app::now() - begun) * 1e-3;
 }
 

@@ -56,36 +56,21 @@ scene::CameraPath orbit(const scene::Bounds& bounds) {
 
 Stage::Stage(const std::string& scene, bool bare) {
     const auto begun = std::chrono::steady_clock::now();
-    const std::vector<SceneInfo> manifest = loadManifest();
-    const auto named = std::find_if(manifest.begin(), manifest.end(), [&](const SceneInfo& s) { return s.name == scene; });
-    std::error_code ignored;
-    if (named != manifest.end()) {
-        loadNamed(*named, bare);
-    } else if (fs::is_regular_file(scene, ignored)) {
-        loadFile(scene);
-    } else {
-        std::vector<std::string> names;
-        for (const SceneInfo& s : manifest) names.push_back(s.name);
-        const bool looksLikePath = scene.find('/') != std::string::npos || scene.find(".gl") != std::string::npos;
-        throw Complaint(looksLikePath
-                            ? fmt::format("--scene {}: no such file; name a .gltf or .glb file, or one of the scenes: {}", scene,
-                                  fmt::join(names, ", "))
-                            : fmt::format("--scene {}: no such scene; {}, or the path of a glTF file", scene, app::choices(scene, names)));
-    }
+    const app::SceneFile found = app::findScene(scene);
+    found.named ? loadNamed(found, bare) : loadFile(found.file);
     loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
-void Stage::loadNamed(const SceneInfo& named, bool bare) {
-    info = named;
+void Stage::loadNamed(const app::SceneFile& named, bool bare) {
+    info = named.info;
     if (bare) info.toys.clear();
-    const std::optional<fs::path> found = findContent(info.files);
-    if (!found) throw Complaint(fmt::format("--scene {}: {} is missing; {}", info.name, info.files.front(), info.howToGet));
-    file = found->string();
-    world.add({.model = scene::loadGltf(*found)});
+    if (named.file.empty()) throw Complaint(fmt::format("--scene {}: {} is missing; {}", info.name, info.files.front(), info.howToGet));
+    file = named.file.string();
+    world.add({.model = scene::loadGltf(named.file)});
     loadToys(!info.toys.empty());
-    for (const ToyGroup& group : info.toys) placeGroup(group);
+    for (const app::ToyGroup& group : info.toys) placeGroup(group);
     bounds = scene::bounds(world, 0.0f);
-    if (const auto flythrough = findContent(info.flythrough)) path = scene::loadCameraPath(*flythrough);
+    if (named.flythrough) path = scene::loadCameraPath(*named.flythrough);
     else path = orbit(bounds);
 }
 
@@ -121,7 +106,7 @@ void Stage::loadFile(const fs::path& path_) {
 
 void Stage::loadToys(bool wanted) {
     // The scene may be toasters.glb itself; then its model is shared.
-    const std::optional<fs::path> found = findContent(kToysFile);
+    const std::optional<fs::path> found = app::findContent(kToysFile);
     const scene::Instance& first = world.instances().front();
     if (found && found->string() == file) m_toys = first.model;
     else if (found) m_toys = scene::loadGltf(*found);
@@ -143,7 +128,7 @@ void Stage::loadToys(bool wanted) {
     if (m_toyKinds.empty()) m_toys = nullptr;
 }
 
-void Stage::placeGroup(const ToyGroup& group) {
+void Stage::placeGroup(const app::ToyGroup& group) {
     for (const Toy& toy : m_toyKinds) {
         glm::mat4 placement = glm::translate(glm::mat4(1.0f), group.at);
         placement = glm::rotate(placement, group.turn, glm::vec3(0, 1, 0));
@@ -263,10 +248,9 @@ scene::Camera Stage::camera(const CameraChoice& choice, float time) {
 
 std::string sceneList() {
     std::string text;
-    for (const SceneInfo& info : loadManifest()) {
-        const std::optional<fs::path> found = findContent(info.files);
-        text += fmt::format("{:<10} {}\n{:<10} {}\n", info.name, info.title, "", found ? found->string() : "missing: " + info.howToGet);
-    }
+    for (const app::SceneFile& scene : app::namedScenes())
+        text += fmt::format("{:<10} {}\n{:<10} {}\n", scene.info.name, scene.info.title, "",
+            scene.file.empty() ? "missing: " + scene.info.howToGet : scene.file.string());
     return text;
 }
 

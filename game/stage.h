@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "content.h"
+#include "app/content.h"
 #include "options.h"
 #include "scene/camera.h"
 #include "scene/world.h"
@@ -21,7 +21,7 @@ public:
     explicit Stage(const std::string& scene, bool bare = false);
 
     scene::World world;
-    SceneInfo info;
+    app::SceneInfo info;
     scene::CameraPath path;            // the flythrough; an orbit if the scene has none
     scene::Bounds bounds;              // of the whole world at time 0
     std::vector<std::string> remarks;  // one line each, for the terminal
@@ -48,10 +48,10 @@ public:
     float moveSpeed() const;  // metres a second that suit the scene's size
 
 private:
-    void loadNamed(const SceneInfo& named, bool bare);
+    void loadNamed(const app::SceneFile& named, bool bare);
     void loadFile(const std::filesystem::path& file);
     void loadToys(bool wanted);
-    void placeGroup(const ToyGroup& group);
+    void placeGroup(const app::ToyGroup& group);
     glm::vec3 freePlace(const glm::vec3& at) const;
     std::shared_ptr<const scene::Model> m_toys;
     // A toy of m_toys: root node of its subtree, the animated node between its feet that moves it, and the lowest height of that node over

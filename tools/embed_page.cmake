@@ -1,4 +1,5 @@
-# Writes a page's files (NAME.html, .css, .js) as C++ strings in a namespace; with BASE, style and script follow those of page/base.*:
+# Writes a page's files (NAME.html: the body; NAME.css, NAME.js) as C++ strings in a namespace; with BASE, style and script follow those of
+# page/base.*:
 #   cmake -DPAGE=folder -DNAME=gallery -DNAMESPACE=obscura::evaluate -DOUT=page.cpp [-DBASE=ON] -P embed_page.cmake
 set(text "// Generated from ${NAME}.html, .css and .js. Do not edit.\n#include \"page.h\"\n\nnamespace ${NAMESPACE} {\n\n")
 foreach(kind html css js)

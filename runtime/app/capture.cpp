@@ -49,13 +49,13 @@ gpu::Status Capture::addRaw(graph::Graph& graph, graph::ImageId image, Raw done)
     } else {
         m_free.clear();  // buffers of an earlier image size
         const gpu::Status status =
-            gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "capture", pending.buffer);
+            gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, kPass, pending.buffer);
         if (status != gpu::Status::ok) return status;
     }
 
     const VkBuffer target = pending.buffer.handle();
-    const graph::BufferId buffer = graph.import("capture", pending.buffer, graph::Graph::Shared::written);
-    graph.pass("capture")
+    const graph::BufferId buffer = graph.import(kPass, pending.buffer, graph::Graph::Shared::written);
+    graph.pass(kPass)
         .use(image, graph::Access::transferRead)
         .use(buffer, graph::Access::transferWrite)
         .keep()

@@ -13,6 +13,7 @@ namespace obscura::app {
 
 class Capture {
 public:
+    static constexpr const char* kPass = "capture";  // name of its passes
     using Done = std::function<void(Picture&&)>;
     explicit Capture(gpu::Device& device) : m_device(device) {}
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 namespace obscura::app {
 

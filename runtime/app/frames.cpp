@@ -12,15 +12,15 @@ Frames::Frames(gpu::Device& device) : m_device(device), m_executor(device), m_sl
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
             .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
             .queueFamilyIndex = device.queueFamily()};
-        m_good = m_good && vk.CreateCommandPool(device.handle(), &pool, device.allocator(), &slot.pool) == VK_SUCCESS;
-        if (!m_good) return;
+        m_valid = m_valid && vk.CreateCommandPool(device.handle(), &pool, device.allocator(), &slot.pool) == VK_SUCCESS;
+        if (!m_valid) return;
         const VkCommandBufferAllocateInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
             .commandPool = slot.pool,
             .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
             .commandBufferCount = 1};
         const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-        m_good = vk.AllocateCommandBuffers(device.handle(), &commands, &slot.commands) == VK_SUCCESS &&
-                 vk.CreateFence(device.handle(), &fence, device.allocator(), &slot.fence) == VK_SUCCESS;
+        m_valid = vk.AllocateCommandBuffers(device.handle(), &commands, &slot.commands) == VK_SUCCESS &&
+                  vk.CreateFence(device.handle(), &fence, device.allocator(), &slot.fence) == VK_SUCCESS;
     }
 }
 

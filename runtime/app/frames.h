@@ -13,11 +13,11 @@ namespace obscura::app {
 
 class Frames {
 public:
-    explicit Frames(gpu::Device& device);  // good() is false if a Vulkan object could not be created
+    explicit Frames(gpu::Device& device);  // valid() is false if a Vulkan object could not be created
     ~Frames();                             // waits for the GPU
     Frames(const Frames&) = delete;
 
-    bool good() const { return m_good; }
+    bool valid() const { return m_valid; }
     gpu::Status begin(graph::Graph& graph);
     // Null semaphores are ignored. On failure nothing was submitted.
     gpu::Status end(graph::Graph& graph, VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
@@ -40,7 +40,7 @@ private:
     graph::Executor m_executor;
     std::vector<Slot> m_slots;
     uint32_t m_slot = 0;
-    bool m_good = true;
+    bool m_valid = true;
     double m_record = 0.0, m_begun = 0.0;
 };
 

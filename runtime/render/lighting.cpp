@@ -52,7 +52,7 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
     const GBuffer& g = in.gbuffer;
     graph.pass("lighting", m_light)
         .read(light)
-        .read(g.depth)
+        .read(in.linearDepth)
         .read(g.geometric)
         .read(g.shaded)
         .read(g.baseColor)

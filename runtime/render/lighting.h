@@ -1,4 +1,4 @@
-// Lighting from G-buffer, visibility and shadow map, then blended surfaces, then tone mapping.
+// Lighting from linear depth, G-buffer, visibility and shadow map, then blended surfaces, then tone mapping.
 #pragma once
 
 #include "render/gbuffer.h"
@@ -16,6 +16,7 @@ public:
 
     struct Inputs {
         GBuffer gbuffer;
+        graph::ImageId linearDepth;  // as ao::Inputs::depth
         graph::ImageId visibility;
         Shadow::Map shadow;
         shared::View view;

@@ -176,6 +176,8 @@ ao::Inputs Renderer::Impl::obscurance(
     const auto run = [&](ao::Library& of, const ao::Values& values) {
         ao::Library::Added added = of.add(graph, frame, sources, options.falloff, values);
         if (!added.visibility) added.visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has logged why
+        // A method that cannot be made leaves no prepared depth, which lighting reads.
+        if (!added.inputs.depth) added.inputs = of.add(graph, frame, sources, options.falloff, ao::Values(*ao::methods()[0])).inputs;
         return added;
     };
     if (!options.compare) {
@@ -262,6 +264,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     if (options.view == View::final || options.view == View::pass) {
         Lighting::Inputs in;
         in.gbuffer = g;
+        in.linearDepth = prepared.depth;
         in.visibility = out.visibility;
         in.view = view;
         in.eyeFromWorld = camera.view;
@@ -277,7 +280,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
         request.reach = options.shadowReach;
         request.skipMasked = options.skipMasked;
         in.shadow = impl.shadow.add(graph, request, posed, impl.materials);
-        if (in.shadow.image) out.color = impl.lighting.add(graph, in, impl.materials);
+        if (in.shadow.image && in.linearDepth) out.color = impl.lighting.add(graph, in, impl.materials);
         if (options.view == View::pass) {
             const graph::ImageId shown = impl.views.addPass(graph, options.passView, view);
             if (shown) out.color = shown;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/world.h"
 
 namespace obscura::scene {

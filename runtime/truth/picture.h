@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/gltf.h"  // scene::Error
+#include "scene/gltf/gltf.h"  // scene::Error
 
 namespace obscura::truth {
 

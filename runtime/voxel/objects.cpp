@@ -6,7 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 namespace obscura::voxel {
 

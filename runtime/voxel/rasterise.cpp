@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 namespace obscura::voxel {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/hash.h"
 
 namespace obscura::voxel {

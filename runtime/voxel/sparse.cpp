@@ -10,7 +10,7 @@
 #include <openvdb/openvdb.h>
 #include <unistd.h>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/hash.h"
 
 namespace obscura::voxel {

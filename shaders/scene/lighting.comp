@@ -1,4 +1,4 @@
-// Lighting of the visible part. In: G-buffer, visibility, shadow map. Out: radiance, linear; the guard band is not written.
+// Lighting of the visible part. In: linear depth, G-buffer, visibility, shadow map. Out: radiance, linear; the guard band is not written.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene/shade.glsl"
@@ -7,7 +7,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform Light { LightingBlock light; };
-layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;       // linear, metres
 layout(set = 0, binding = 2) uniform usampler2D geometricMap;
 layout(set = 0, binding = 3) uniform usampler2D shadedMap;
 layout(set = 0, binding = 4) uniform sampler2D baseColorMap;
@@ -22,9 +22,9 @@ void main() {
     if (any(greaterThanEqual(at, ivec2(light.view.visible)))) return;
     ivec2 p = at + ivec2(light.view.guard);
 
-    float d = texelFetch(depthMap, p, 0).x;
+    float depth = texelFetch(depthMap, p, 0).x;
     vec2 centre = vec2(p) + 0.5;
-    if (d <= 0.0) {
+    if (isSky(light.view, depth)) {
         vec3 direction = light.view.orthographic > 0.5 ? vec3(0.0, 0.0, -1.0) : normalize(eyePosition(light.view, centre, 1.0));
         imageStore(lit, p, vec4(skyRadiance(light, direction), 1.0));
         return;
@@ -36,9 +36,8 @@ void main() {
         imageStore(lit, p, vec4(color.rgb + emission, 1.0));
         return;
     }
-    vec4 l = light.view.linearize;
     Surface s;
-    s.position = eyePosition(light.view, centre, (d * l.x + l.y) / (d * l.z + l.w));
+    s.position = eyePosition(light.view, centre, depth);
     s.geometric = unpackNormal(texelFetch(geometricMap, p, 0).x);
     s.normal = unpackNormal(texelFetch(shadedMap, p, 0).x);
     s.baseColor = color.rgb;

@@ -3,7 +3,7 @@
 
 #include "ao/oracle.h"
 #include "render/renderer.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/pose.h"
 
 namespace obscura::test {

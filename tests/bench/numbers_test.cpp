@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "app/complaint.h"
-#include "candidate.h"
 #include "compare.h"
 #include "front.h"
+#include "measure/candidate.h"
 #include "rows.h"
 #include "scaling.h"
 #include "tables.h"
@@ -176,16 +176,16 @@ TEST(Bench, tableMarksTheBestAndReplacesTheMarkedSection) {
 
 TEST(Bench, listsOfSettingsExpandToEveryCombination) {
     const auto list =
-        evaluate::variants({"hbao", "hybrid"}, {"default"}, {"hbao.steps=4,8", "hbao.directions=2,3", "voxels=64,128", "temporal=0.5"});
+        measure::variants({"hbao", "hybrid"}, {"default"}, {"hbao.steps=4,8", "hbao.directions=2,3", "voxels=64,128", "temporal=0.5"});
     std::vector<std::string> labels;
-    for (const evaluate::Candidate& candidate : list) labels.push_back(candidate.label());
+    for (const measure::Candidate& candidate : list) labels.push_back(candidate.label());
     EXPECT_EQ(labels, (std::vector<std::string>{"hbao steps=4 directions=2 temporal=0.5", "hbao steps=4 directions=3 temporal=0.5",
                           "hbao steps=8 directions=2 temporal=0.5", "hbao steps=8 directions=3 temporal=0.5",
                           "hybrid voxels=64 temporal=0.5", "hybrid voxels=128 temporal=0.5"}));
     EXPECT_EQ(list[0].varied, (std::vector<std::string>{"steps", "directions"}));
     EXPECT_EQ(list[4].voxels.over({}).cells, 64u);
     EXPECT_EQ(list[5].voxels.over({}).cells, 128u);
-    EXPECT_THROW(evaluate::variants({"hbao"}, {"default"}, {"voxels=64"}), app::Complaint);
+    EXPECT_THROW(measure::variants({"hbao"}, {"default"}, {"voxels=64"}), app::Complaint);
 }
 
 }  // namespace

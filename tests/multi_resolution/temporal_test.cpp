@@ -8,7 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "render/fixture.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 namespace obscura::test {
 namespace {

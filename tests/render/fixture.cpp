@@ -64,9 +64,10 @@ glm::vec3 Picture::colorAt(float x, float y) const {
     return glm::mix(top, bottom, py - float(iy));
 }
 
-RenderFixture::RenderFixture() : m_none(*ao::findMethod("none")) {
+RenderFixture::RenderFixture(const std::string& without) : m_none(*ao::findMethod("none")) {
     m_shaders.add(render::shaders());
-    m_shaders.add(ao::shaders());
+    for (const gpu::EmbeddedShader& shader : ao::shaders())
+        if (without.empty() || !std::string_view(shader.name).starts_with(without)) m_shaders.add({&shader, 1});
     m_renderer = render::Renderer::create(device(), m_shaders);
     if (!m_renderer) throw std::runtime_error("no renderer");
     m_graph = std::make_unique<graph::Graph>(device());

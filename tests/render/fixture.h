@@ -26,7 +26,7 @@ struct Picture {
 
 class RenderFixture {
 public:
-    RenderFixture();
+    explicit RenderFixture(const std::string& without = "");  // shaders of the library that are left out: a beginning of their names
     Picture render(const scene::World& world, const render::FrameOptions& options);
     render::FrameOptions options() const;  // 320x240, no obscurance
     render::Renderer& renderer() { return *m_renderer; }

@@ -194,6 +194,21 @@ TEST_F(Frame, viewsParseAndShow) {
     EXPECT_FALSE(render::parseView("pass:", view, pass));
 }
 
+// Lighting reads the depth that the library prepares for the method.
+TEST_F(Frame, methodThatCannotBeMadeIsLitWithoutObscurance) {
+    const scene::World world = mixedWorld();
+    RenderFixture whole;
+    const Picture open = whole.render(world, whole.options());
+    RenderFixture lacking("ao/hbao/");
+    render::FrameOptions options = lacking.options();
+    const ao::Values hbao(*ao::findMethod("hbao"));
+    options.method = &hbao;
+    const Picture picture = lacking.render(world, options);
+    EXPECT_TRUE(loggedContains("ao/hbao/")) << allLogged();
+    EXPECT_EQ(picture.color, open.color);
+    EXPECT_EQ(picture.visibility, open.visibility);
+}
+
 // Ranges of the posed buffers freed by another scene's models are reused without trace.
 TEST_F(Frame, sceneSwitchLeavesNoTrace) {
     RenderFixture switched, fresh;

@@ -2,7 +2,6 @@
 // extension; every invalid one gives a model or a one-line error, quickly and with little memory.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -12,18 +11,14 @@
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/world.h"
+#include "shared_folder.h"
 
 namespace obscura::scene::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path content() {
-    if (const char* own = std::getenv("OBSCURA_CONTENT"); own != nullptr && *own != '\0') return own;
-    return fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "content";
-}
 
 std::vector<fs::path> models(const fs::path& folder) {
     std::vector<fs::path> out;
@@ -78,7 +73,7 @@ std::string load(const fs::path& file) {
 }
 
 TEST(Content, EveryConformanceModelLoads) {
-    const fs::path folder = content() / "conformance";
+    const fs::path folder = obscura::test::contentFolder() / "conformance";
     NEEDS(folder);
     // The accepted reasons to refuse a model, and their number.
     struct Reason {
@@ -117,7 +112,7 @@ TEST(Content, EveryConformanceModelLoads) {
 }
 
 TEST(Content, EveryInvalidModelGivesAModelOrOneLine) {
-    const fs::path folder = content() / "invalid";
+    const fs::path folder = obscura::test::contentFolder() / "invalid";
     NEEDS(folder);
     // Validator messages that do not affect drawing: a model with only these may load.
     const std::set<std::string> harmless = {"EMPTY_ENTITY",  // [] in place of an omitted property
@@ -207,7 +202,7 @@ void expectSame(const fs::path& plain, const fs::path& packed, float tolerance) 
 }
 
 TEST(Content, CompressedModelsEqualTheOriginals) {
-    const fs::path folder = content() / "conformance";
+    const fs::path folder = obscura::test::contentFolder() / "conformance";
     NEEDS(folder);
     const fs::path khronos = folder / "khronos" / "Models";
     for (const char* name : {"Box", "CesiumMilkTruck", "RiggedSimple", "MorphPrimitivesTest", "CesiumMan"})
@@ -221,7 +216,7 @@ TEST(Content, CompressedModelsEqualTheOriginals) {
 }
 
 TEST(Content, SponzaIsComplete) {
-    const fs::path file = content() / "sponza" / "512" / "Sponza.gltf";
+    const fs::path file = obscura::test::contentFolder() / "sponza" / "512" / "Sponza.gltf";
     NEEDS(file);
     const auto model = loadGltf(file);
     EXPECT_EQ(model->triangleCount(), 262267u);
@@ -231,7 +226,7 @@ TEST(Content, SponzaIsComplete) {
 }
 
 TEST(Content, ToastersWalk) {
-    const fs::path file = content() / "toasters" / "toasters_nodes.glb";
+    const fs::path file = obscura::test::contentFolder() / "toasters" / "toasters_nodes.glb";
     NEEDS(file);
     const auto model = loadGltf(file);
     EXPECT_EQ(model->triangleCount(), 11141u);

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/world.h"
 
 using Json = nlohmann::json;

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 namespace obscura::test {
 

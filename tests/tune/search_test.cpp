@@ -11,7 +11,7 @@
 namespace obscura::tune {
 namespace {
 
-evaluate::Candidate hand(const char* method, const char* preset = "default") { return evaluate::candidates({method}, {preset}, {})[0]; }
+measure::Candidate hand(const char* method, const char* preset = "default") { return measure::candidates({method}, {preset}, {})[0]; }
 
 TEST(Search, findsTheMinimumOfABowlDeterministically) {
     const auto run = [](uint32_t seed, std::vector<std::vector<double>>& asked) {
@@ -40,11 +40,11 @@ TEST(Search, endsWhenAllIntegersAreTried) {
 }
 
 TEST(Space, startsAtThePresetAndStaysInRange) {
-    const evaluate::Candidate start = hand("hbao", "8x4");
+    const measure::Candidate start = hand("hbao", "8x4");
     const Space space(start, {"steps", "bias", "layered.sheet"});
     ASSERT_EQ(space.size(), 2u);
     EXPECT_TRUE(space.at(space.start()).settings.empty());
-    const evaluate::Candidate low = space.at(std::vector<double>{0.0, 0.0}), high = space.at(std::vector<double>{1.0, 1.0});
+    const measure::Candidate low = space.at(std::vector<double>{0.0, 0.0}), high = space.at(std::vector<double>{1.0, 1.0});
     EXPECT_EQ(low.values["steps"], 1.0f);
     EXPECT_EQ(high.values["steps"], 16.0f);
     EXPECT_EQ(high.values["bias"], 40.0f);
@@ -88,7 +88,7 @@ TEST(Tuned, isAcceptedOnlyByHeldOutScenes) {
 }
 
 TEST(Tuned, presetTextListsNonInitialValues) {
-    evaluate::Candidate candidate = hand("hbao", "8x4");
+    measure::Candidate candidate = hand("hbao", "8x4");
     candidate.values.set("spacing", 0.35f);
     EXPECT_EQ(presetText(candidate), "{\"directions\", 8}, {\"steps\", 4}, {\"spacing\", 0.35f}");
 }

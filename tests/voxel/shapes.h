@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <set>
@@ -11,8 +10,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/world.h"
+#include "shared_folder.h"
 #include "voxel/bricks.h"
 #include "voxel/rasterise.h"
 
@@ -92,10 +92,5 @@ public:
 private:
     std::filesystem::path m_path;
 };
-
-inline std::filesystem::path contentFolder() {
-    const char* named = std::getenv("OBSCURA_CONTENT");
-    return named && *named ? std::filesystem::path(named) : std::filesystem::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "content";
-}
 
 }  // namespace obscura::test

@@ -10,7 +10,7 @@
 #include "app/files.h"
 #include "app/progress.h"
 #include "balls.h"
-#include "measure.h"
+#include "measure/draw.h"
 #include "scene/hash.h"
 
 namespace obscura::bench {
@@ -27,12 +27,12 @@ constexpr double kFlickerStart = 4.0;  // s into the scene's flythrough, where t
 struct Cell {
     Row row;
     size_t shot = 0;
-    const evaluate::FalloffChoice* falloff = nullptr;
-    const evaluate::Candidate* candidate = nullptr;
+    const measure::FalloffChoice* falloff = nullptr;
+    const measure::Candidate* candidate = nullptr;
     std::vector<app::Series> passes;
     std::vector<double> own, rest;
 
-    void add(const evaluate::Drawing& drawing) {
+    void add(const measure::Drawing& drawing) {
         for (const app::Series& pass : drawing.passes) {
             std::vector<double>& values = app::named(passes, pass.name).values;
             values.insert(values.end(), pass.values.begin(), pass.values.end());
@@ -55,17 +55,17 @@ struct Cell {
 // All shots of a scene. Their cells are measured in turns, round by round.
 class SceneBench {
 public:
-    SceneBench(evaluate::Machine& machine, const Options& options, const std::string& scene, const std::string& title)
+    SceneBench(measure::Machine& machine, const Options& options, const std::string& scene, const std::string& title)
         : m_machine(machine), m_options(options), m_title(title), m_scene(scene), m_loaded(machine, scene) {
-        for (const evaluate::CameraChoice& camera : options.what.cameras)
+        for (const measure::CameraChoice& camera : options.what.cameras)
             for (const glm::uvec2 size : options.sizes) {
-                evaluate::Options sized = options.what;
+                measure::Measurement sized = options.what;
                 sized.size = size;
                 m_shots.push_back(std::move(*m_loaded.shot(sized, camera)));
             }
         for (size_t shot = 0; shot < m_shots.size(); ++shot)
-            for (const evaluate::FalloffChoice& falloff : options.what.falloffs)
-                for (const evaluate::Candidate& candidate : options.what.candidates) m_cells.push_back(cellOf(shot, falloff, candidate));
+            for (const measure::FalloffChoice& falloff : options.what.falloffs)
+                for (const measure::Candidate& candidate : options.what.candidates) m_cells.push_back(cellOf(shot, falloff, candidate));
         std::string file = m_shots.front().scene;
         for (char& c : file)
             if (!std::isalnum((unsigned char)c) && c != '-') c = '_';
@@ -75,7 +75,7 @@ public:
     }
 
     std::vector<Row> measure() {
-        for (const evaluate::Candidate& candidate : m_options.what.candidates)
+        for (const measure::Candidate& candidate : m_options.what.candidates)
             m_machine.expectMethod(*m_shots.front().library, candidate.info());
         const uint32_t rounds = m_options.what.rounds;
         size_t done = 0, left = 0;
@@ -89,7 +89,7 @@ public:
                 for (Cell& cell : m_cells) {
                     if (cell.row.rounds.size() > round) continue;
                     progress.at(done++, cell.row.label());
-                    const evaluate::Drawing drawing = evaluate::draw(m_machine, m_shots[cell.shot], *cell.candidate, cell.falloff->falloff,
+                    const measure::Drawing drawing = measure::draw(m_machine, m_shots[cell.shot], *cell.candidate, cell.falloff->falloff,
                         m_options.what.warmUp, m_options.what.frames);
                     if (round == 0) judge(cell, drawing, grounds[cell.shot]);
                     cell.add(drawing);
@@ -103,7 +103,7 @@ public:
     }
 
 private:
-    Cell cellOf(size_t shot, const evaluate::FalloffChoice& falloff, const evaluate::Candidate& candidate) const {
+    Cell cellOf(size_t shot, const measure::FalloffChoice& falloff, const measure::Candidate& candidate) const {
         Cell cell;
         cell.shot = shot;
         cell.falloff = &falloff;
@@ -128,7 +128,7 @@ private:
 
     std::string key() const {
         scene::Hash hash;
-        const evaluate::Options& what = m_options.what;
+        const measure::Measurement& what = m_options.what;
         hash.add(kMeasure)
             .add(m_machine.deviceName())
             .add(what.frames)
@@ -145,7 +145,7 @@ private:
                 .add(int(what.voxels.structure));
             for (const float value : cell.candidate->values.values()) hash.add(value);
         }
-        for (const evaluate::Shot& shot : m_shots) hash.add(shot.frame.depth.data(), shot.frame.depth.size() * sizeof(float));
+        for (const measure::Shot& shot : m_shots) hash.add(shot.frame.depth.data(), shot.frame.depth.size() * sizeof(float));
         if (const auto& f = m_options.flicker) hash.add(f->size.x).add(f->size.y).add(f->length);
         for (const gpu::EmbeddedShader& shader : ao::shaders()) hash.add(shader.spirv.data(), shader.spirv.size_bytes());
         return hash.hex();
@@ -154,22 +154,22 @@ private:
     // References and baseline memory of a shot's cells.
     struct Ground {
         uint64_t bytes;  // of the frame without obscurance
-        std::vector<evaluate::ShotReference> references;
+        std::vector<measure::ShotReference> references;
     };
     std::vector<Ground> look() {
         std::vector<Ground> grounds;
-        for (evaluate::Shot& shot : m_shots) {
-            const evaluate::Candidate nothing{ao::Values(*ao::methods()[0]), "default", {}};
-            const uint64_t bytes = evaluate::draw(m_machine, shot, nothing, m_options.what.falloffs.front().falloff, 1, 1).bytes;
+        for (measure::Shot& shot : m_shots) {
+            const measure::Candidate nothing{ao::Values(*ao::methods()[0]), "default", {}};
+            const uint64_t bytes = measure::draw(m_machine, shot, nothing, m_options.what.falloffs.front().falloff, 1, 1).bytes;
             grounds.push_back({bytes, referencesOf(m_machine, shot, m_options.what).list});
         }
         return grounds;
     }
 
     // Errors and memory, which are the same in every round.
-    void judge(Cell& cell, const evaluate::Drawing& drawing, const Ground& ground) const {
+    void judge(Cell& cell, const measure::Drawing& drawing, const Ground& ground) const {
         cell.row.bytes = drawing.bytes - std::min(drawing.bytes, ground.bytes);
-        for (const evaluate::ShotReference& reference : ground.references) {
+        for (const measure::ShotReference& reference : ground.references) {
             if (reference.falloff != cell.falloff->text) continue;
             const truth::Metrics m = truth::compare(drawing.visibility, reference.visibility, m_shots[cell.shot].frame.visibleMask());
             cell.row.errors.push_back({reference.kind, m.raw.eA, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim});
@@ -178,15 +178,15 @@ private:
 
     // Flicker over the scene's flythrough, if it has one; the same for all cameras and sizes.
     void flicker() {
-        const evaluate::SceneFile file = evaluate::findScene(m_scene);
+        const app::SceneFile file = app::expectScene(m_scene);
         if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); }))
             return;
-        for (const evaluate::FalloffChoice& falloff : m_options.what.falloffs) {
+        for (const measure::FalloffChoice& falloff : m_options.what.falloffs) {
             flythrough::Settings settings = *m_options.flicker;
             settings.falloff = falloff;
             flythrough::Flight flight(
                 m_machine, flythrough::findScript(fmt::format("{}@{:g}", file.flythrough->string(), kFlickerStart)), settings);
-            for (const evaluate::Candidate& candidate : m_options.what.candidates) {
+            for (const measure::Candidate& candidate : m_options.what.candidates) {
                 std::optional<Flicker> found;
                 for (Cell& cell : m_cells) {
                     if (cell.candidate != &candidate || cell.falloff->text != falloff.text || cell.row.flicker) continue;
@@ -239,11 +239,11 @@ private:
         } catch (const Json::exception&) {}  // not a file of this program: measure again
     }
 
-    evaluate::Machine& m_machine;
+    measure::Machine& m_machine;
     const Options& m_options;
     std::string m_title, m_scene;
-    evaluate::LoadedScene m_loaded;
-    std::vector<evaluate::Shot> m_shots;
+    measure::LoadedScene m_loaded;
+    std::vector<measure::Shot> m_shots;
     std::vector<Cell> m_cells;
     fs::path m_file;
     std::string m_key;
@@ -252,8 +252,8 @@ private:
 
 }  // namespace
 
-Results measure(const Options& options, evaluate::Machine& machine) {
-    const evaluate::Options& what = options.what;
+Results measure(const Options& options, measure::Machine& machine) {
+    const measure::Measurement& what = options.what;
     app::expectFolder(options.out / "parts");
     std::vector<std::string> scenes = what.scenes;
     if (!options.triangles.empty()) app::expectFolder(options.out / "scenes");

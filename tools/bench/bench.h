@@ -7,6 +7,6 @@
 namespace obscura::bench {
 
 // Throws app::Complaint or scene::Error.
-Results measure(const Options& options, evaluate::Machine& machine);
+Results measure(const Options& options, measure::Machine& machine);
 
 }  // namespace obscura::bench

@@ -40,9 +40,9 @@ int run(int argc, char** argv) {
     if (!options->from.empty()) {
         results = readResults(options->from);
     } else {
-        evaluate::expectScenes(options->what);
+        measure::expectScenes(options->what);
         app::expectFolder(options->out);
-        evaluate::Machine machine({options->what.device, options->what.validation, options->what.verbose});
+        measure::Machine machine({options->what.device, options->what.validation, options->what.verbose});
         results = measure(*options, machine);
         if (machine.device().validationMessages()) code = app::kInvalidUse;
     }

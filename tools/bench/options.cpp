@@ -8,9 +8,9 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
+#include "app/content.h"
 #include "app/voxel_arguments.h"
-#include "arguments.h"
-#include "content.h"
+#include "measure/arguments.h"
 #include "scene/hash.h"
 
 namespace obscura::bench {
@@ -36,7 +36,7 @@ std::vector<uint64_t> trianglesOf(const std::vector<std::string>& texts) {
 
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
-    evaluate::Options& what = options.what;
+    measure::Measurement& what = options.what;
     what.rounds = 5;
     what.frames = 5;
     what.rays.rays = 256;
@@ -58,13 +58,13 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-bench --from out/front/bench.json --table README.md                                   the table between README's "
         "markers");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    evaluate::CandidateOptions chosen;
+    measure::CandidateOptions chosen;
     chosen.methods = {"all"};
     std::vector<std::string> falloffs{"quadratic:2"}, cameras{"own"}, references{"world", "screen"}, sizes{"640x360"}, triangles;
     std::string flickerSize = "320x180", out = "out/bench";
     uint32_t flickerFrames = 12;
     bool noCache = false;
-    using evaluate::takeAll;
+    using measure::takeAll;
 
     cli.option_defaults()->group("Frames");
     takeAll(cli.add_option(
@@ -112,10 +112,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->capture_default_str();
     cli.add_flag(
         "--absolute", options.absolute, "Compare milliseconds, not shares of a round; then a slower machine counts as a regression");
-    evaluate::addDevice(cli, what.device, what.validation, what.verbose);
+    measure::addDevice(cli, what.device, what.validation, what.verbose);
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
-    options.command = evaluate::commandOf("obscura-bench", argc, argv);
+    options.command = measure::commandOf("obscura-bench", argc, argv);
     options.out = out;
     if (!options.from.empty()) {
         for (const char* option : {"--scene", "--triangles", "--method", "--preset", "--set", "--falloff", "--size", "--camera"})
@@ -126,12 +126,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     }
     options.triangles = trianglesOf(triangles);
     if (what.scenes.empty() && options.triangles.empty())
-        for (const evaluate::SceneFile& scene : evaluate::namedScenes())
-            if (!scene.file.empty()) what.scenes.push_back(scene.name);
+        for (const app::SceneFile& scene : app::namedScenes())
+            if (!scene.file.empty()) what.scenes.push_back(scene.info.name);
     for (const std::string& size : sizes) options.sizes.push_back(app::sizeOf(size));
-    for (const std::string& camera : cameras) what.cameras.push_back(evaluate::cameraOf(camera));
-    what.falloffs = evaluate::falloffs(falloffs);
-    what.candidates = evaluate::variants(chosen.methods, chosen.presets, chosen.allSets());
+    for (const std::string& camera : cameras) what.cameras.push_back(measure::cameraOf(camera));
+    what.falloffs = measure::falloffs(falloffs);
+    what.candidates = measure::variants(chosen.methods, chosen.presets, chosen.allSets());
     for (const std::string& reference : references) {
         if (reference == "world") what.reference.world = true;
         else if (reference == "screen") what.reference.screen = true;
@@ -154,7 +154,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         settings.pictures = settings.still = false;
     }
     if (!options.triangles.empty() &&
-        std::any_of(what.cameras.begin(), what.cameras.end(), [](const auto& c) { return c.kind == evaluate::CameraChoice::Kind::path; }))
+        std::any_of(what.cameras.begin(), what.cameras.end(), [](const auto& c) { return c.kind == measure::CameraChoice::Kind::path; }))
         throw Complaint("--triangles: generated scenes have no flythrough; leave out --camera path:...");
     return options;
 }

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "flight.h"
-#include "shot.h"
+#include "measure/shot.h"
 
 namespace obscura::bench {
 
 struct Options {
-    evaluate::Options what;  // scenes, cameras, falloffs, candidates, references, rays, times, device; its size is not used
+    measure::Measurement what;  // scenes, cameras, falloffs, candidates, references, rays, times, device; its size is not used
     std::vector<glm::uvec2> sizes;
     std::vector<uint64_t> triangles;  // numbers of triangles of generated scenes, in addition to those of `what`
     std::optional<flythrough::Settings> flicker;

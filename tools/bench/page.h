@@ -7,7 +7,7 @@
 
 namespace obscura::bench {
 
-extern const char* const kPageHtml;  // contains the placeholders /*STYLE*/, /*SCRIPT*/ and /*DATA*/
+extern const char* const kPageHtml;  // the body; app/page.h adds the head
 extern const char* const kPageCss;
 extern const char* const kPageJs;
 

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "app/complaint.h"
-#include "measure.h"
+#include "measure/draw.h"
 
 namespace obscura::bench {
 
-using evaluate::digits;
+using measure::digits;
 
 std::string Row::label() const {
     std::string text = method;

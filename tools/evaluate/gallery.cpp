@@ -2,7 +2,7 @@
 
 #include "app/files.h"
 #include "app/page.h"
-#include "false_colour.h"
+#include "measure/false_colour.h"
 #include "page.h"
 
 namespace obscura::evaluate {
@@ -10,13 +10,13 @@ namespace obscura::evaluate {
 namespace {
 
 std::string dataUri(const truth::Plane& visibility) {
-    return "data:image/png;base64," + app::base64(app::encodePng(greyPicture(visibility)));
+    return "data:image/png;base64," + app::base64(app::encodePng(measure::greyPicture(visibility)));
 }
 
 Json methodsJson(const Options& options) {
     Json list = Json::array();
     const ao::MethodInfo* last = nullptr;
-    for (const Candidate& candidate : options.candidates) {
+    for (const measure::Candidate& candidate : options.candidates) {
         if (&candidate.info() == last) continue;
         last = &candidate.info();
         list.push_back({{"id", last->id}, {"title", last->title}, {"paper", last->paper}, {"sentence", last->sentence}});
@@ -33,12 +33,12 @@ Json shotJson(const ShotResult& shot, const Options& options, const About& about
     json["size"] = {shot.size.x, shot.size.y};
     json["remark"] = shot.remark;
     json["references"] = Json::array();
-    for (const ShotReference& reference : shot.references)
+    for (const measure::ShotReference& reference : shot.references)
         json["references"].push_back({{"kind", reference.kind}, {"falloff", reference.falloff}, {"rays", reference.rays},
             {"error", reference.error}, {"picture", dataUri(reference.visibility)}});
     json["drawn"] = Json::array();
     for (const Drawn& drawn : shot.drawn) {
-        const Candidate& candidate = options.candidates[drawn.candidate];
+        const measure::Candidate& candidate = options.candidates[drawn.candidate];
         json["drawn"].push_back({{"method", candidate.info().id}, {"label", candidate.label()},
             {"falloff", options.falloffs[drawn.falloff].text}, {"picture", dataUri(drawn.visibility)}});
     }
@@ -58,12 +58,12 @@ std::string galleryPage(const std::vector<ShotResult>& shots, const Options& opt
     Json data;
     data["device"] = about.device;
     data["frames"] = about.frames;
-    data["errorRange"] = kErrorRange;
+    data["errorRange"] = measure::kErrorRange;
     data["methods"] = methodsJson(options);
     data["shots"] = Json::array();
     for (const ShotResult& shot : shots) data["shots"].push_back(shotJson(shot, options, about));
 
-    return app::page(kPageHtml, kPageCss, kPageJs, data.dump());
+    return app::page({"Obscura: accuracy gallery", app::PageSource::Pictures::embedded, kPageHtml, kPageCss, kPageJs}, data.dump());
 }
 
 }  // namespace obscura::evaluate

@@ -7,7 +7,6 @@
 
 #include "app/complaint.h"
 #include "app/files.h"
-#include "content.h"
 #include "scene/json_file.h"
 
 namespace obscura::evaluate {
@@ -21,29 +20,29 @@ namespace {
 Options runOf(const Baseline& baseline, Options options) {
     options.scenes = baseline.scenes;
     options.cameras.clear();
-    for (const std::string& camera : baseline.cameras) options.cameras.push_back(cameraOf(camera));
+    for (const std::string& camera : baseline.cameras) options.cameras.push_back(measure::cameraOf(camera));
     options.usualCameras = false;
     options.size = baseline.size;
     options.guard = baseline.guard;
-    options.falloffs = falloffs(baseline.falloffs);
+    options.falloffs = measure::falloffs(baseline.falloffs);
     options.reference = {};
     for (const std::string& kind : baseline.references) (kind == "world" ? options.reference.world : options.reference.screen) = true;
     options.rays = {baseline.rays, 0.0f, baseline.seed, options.rays.cache};
     options.frames = 1;
     options.warmUp = 0;
     options.errorsOnly = true;
-    expectScenes(options);
+    measure::expectScenes(options);
     return options;
 }
 
 std::map<Cell, float> measureCells(const Options& options) {
-    Machine machine({options.device, options.validation, options.verbose});
+    measure::Machine machine({options.device, options.validation, options.verbose});
     std::map<Cell, float> cells;
-    forEachShot(machine, options, [&](Shot& shot) {
+    measure::forEachShot(machine, options, [&](measure::Shot& shot) {
         const ShotResult result = measure(machine, shot, options);
         for (const Row& row : result.rows) {
-            const Candidate& candidate = options.candidates[result.drawn[row.drawn].candidate];
-            const ShotReference& reference = result.references[row.reference];
+            const measure::Candidate& candidate = options.candidates[result.drawn[row.drawn].candidate];
+            const measure::ShotReference& reference = result.references[row.reference];
             cells[{candidate.info().id, candidate.preset, result.scene, result.camera, reference.falloff, reference.kind}] =
                 row.whole().raw.eA;
         }
@@ -149,7 +148,7 @@ int checkBaseline(const Options& wanted) {
     print("not in the baseline:", verdict.missing);
     print("better than the baseline (renew it to keep the improvement):", verdict.better);
     // Cells only in the baseline are reported only if all methods were measured.
-    if (wanted.candidates.size() == candidates({"all"}, {"all"}, {}).size()) print("in the baseline only:", verdict.gone);
+    if (wanted.candidates.size() == measure::candidates({"all"}, {"all"}, {}).size()) print("in the baseline only:", verdict.gone);
     const std::string renew = fmt::format("obscura-evaluate --renew-baseline {}", wanted.baseline.string());
     if (!verdict.passes())
         fmt::print("failed: {} of {} cells are worse, {} are not in the baseline. If this change is intended: {}\n", verdict.worse.size(),
@@ -173,7 +172,7 @@ int renewBaseline(const Options& wanted) {
     }
     const std::map<Cell, float> measured = measureCells(runOf(baseline, wanted));
     // Replaces all cells, or those of the selected methods only.
-    if (wanted.candidates.size() == candidates({"all"}, {"all"}, {}).size()) baseline.cells.clear();
+    if (wanted.candidates.size() == measure::candidates({"all"}, {"all"}, {}).size()) baseline.cells.clear();
     for (const auto& [cell, eA] : measured) baseline.cells[cell] = eA;
     app::writeFile(wanted.baseline, baselineText(baseline));
     fmt::print("{}: {} cells, {} measured now\n", wanted.baseline.string(), baseline.cells.size(), measured.size());

@@ -34,14 +34,14 @@ private:
 };
 
 int evaluateShots(const Options& options) {
-    expectScenes(options);
-    expectReferenceFile(options);
+    measure::expectScenes(options);
+    measure::expectReferenceFile(options);
     const MadeFolder made(options.out);
     expectOutputs(options);
-    Machine machine({options.device, options.validation, options.verbose});
+    measure::Machine machine({options.device, options.validation, options.verbose});
     const About about{machine.deviceName(), options.frames, options.warmUp};
     std::vector<ShotResult> results;
-    forEachShot(machine, options, [&](Shot& shot) {
+    measure::forEachShot(machine, options, [&](measure::Shot& shot) {
         results.push_back(measure(machine, shot, options));
         if (options.job == Job::gallery) fmt::print(stderr, "{} {}: done\n", shot.scene, shot.camera);
     });

@@ -2,12 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
-#include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
-
-#include "app/complaint.h"
 #include "app/progress.h"
 #include "app/statistics.h"
 
@@ -15,22 +10,8 @@ namespace obscura::evaluate {
 
 namespace {
 
-truth::Plane planeOf(const std::vector<std::byte>& halves, glm::uvec2 size, const std::string& what) {
-    truth::Plane plane(size.x, size.y);
-    if (halves.size() != plane.pixels() * 2)
-        throw app::Complaint(fmt::format("{}: its visibility does not have the frame's size", what), app::kFailed);
-    for (size_t i = 0; i < plane.pixels(); ++i) {
-        uint16_t half;
-        std::memcpy(&half, halves.data() + 2 * i, 2);
-        plane.values[i] = glm::unpackHalf1x16(half);
-        if (!std::isfinite(plane.values[i]))
-            throw app::Complaint(fmt::format("{}: drew {} at pixel ({}, {})", what, plane.values[i], i % size.x, i / size.x), app::kFailed);
-    }
-    return plane;
-}
-
 // The list is run round by round; the times that count are medians over the rounds.
-std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options) {
+std::vector<Drawn> drawAll(measure::Machine& machine, measure::Shot& shot, const Options& options) {
     const size_t perFalloff = options.candidates.size(), count = perFalloff * options.falloffs.size();
     app::Progress progress("running methods on " + shot.scene, count * options.rounds);
     std::vector<Drawn> all;
@@ -39,8 +20,8 @@ std::vector<Drawn> drawAll(Machine& machine, Shot& shot, const Options& options)
     for (uint32_t round = 0; round < options.rounds; ++round)
         for (size_t i = 0; i < count; ++i) {
             progress.at(round * count + i, options.candidates[i % perFalloff].label());
-            Drawing drawing = draw(machine, shot, options.candidates[i % perFalloff], options.falloffs[i / perFalloff].falloff,
-                options.warmUp, options.frames);
+            measure::Drawing drawing = measure::draw(machine, shot, options.candidates[i % perFalloff],
+                options.falloffs[i / perFalloff].falloff, options.warmUp, options.frames);
             sums[i].push_back(app::percentile(drawing.own, 0.5));
             for (const app::Series& pass : drawing.passes) app::named(passes[i], pass.name).values.push_back(pass.median());
             if (round == 0) all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), {}, 0.0});
@@ -65,37 +46,7 @@ std::vector<truth::RegionMetrics> meanError(const truth::Plane& visibility, cons
 
 }  // namespace
 
-Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao::Falloff& falloff, uint32_t warmUp, uint32_t frames) {
-    // A method with a history is measured after its history has converged.
-    constexpr uint32_t kGathered = 16;
-    const bool gathers = (candidate.info().needs & ao::kMotion) || (candidate.info().needs && candidate.values["temporal"] > 0.0f);
-    const Machine::Ran ran = machine.run(gathers ? std::max(warmUp, kGathered) : warmUp, frames,
-        [&](graph::Graph& graph, uint32_t index) { return std::vector{shot.add(graph, candidate, falloff, index)}; });
-    Drawing drawing{planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, {}, {}, ran.bytes};
-    const auto drawsTheFrame = [&](const std::string& pass) {
-        return std::find(shot.framePasses.begin(), shot.framePasses.end(), pass) != shot.framePasses.end();
-    };
-    app::Statistics statistics(frames);
-    for (graph::Timings frame : ran.frames) {
-        double all = 0.0, own = 0.0;
-        for (const graph::PassTime& pass : frame.passes) all += pass.milliseconds;
-        std::erase_if(frame.passes, [&](const graph::PassTime& pass) { return drawsTheFrame(pass.name); });
-        for (const graph::PassTime& pass : frame.passes) own += pass.milliseconds;
-        statistics.add(frame);
-        drawing.own.push_back(own);
-        drawing.rest.push_back(all - own);
-    }
-    drawing.passes = statistics.passes();
-    return drawing;
-}
-
-double digits(double value) {
-    if (value == 0.0 || !std::isfinite(value)) return 0.0;
-    const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::fabs(value))));
-    return std::round(value * scale) / scale;
-}
-
-ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
+ShotResult measure(measure::Machine& machine, measure::Shot& shot, const Options& options) {
     ShotResult result;
     result.scene = shot.scene;
     result.camera = shot.camera;
@@ -106,8 +57,8 @@ ShotResult measure(Machine& machine, Shot& shot, const Options& options) {
     result.every = options.rays.every;
     result.seconds.frame = shot.seconds;
 
-    for (const Candidate& candidate : options.candidates) machine.expectMethod(*shot.library, candidate.info());
-    References references = referencesOf(machine, shot, options);
+    for (const measure::Candidate& candidate : options.candidates) machine.expectMethod(*shot.library, candidate.info());
+    measure::References references = measure::referencesOf(machine, shot, options);
     result.references = std::move(references.list);
     result.referencesFromCache = references.fromCache;
     result.seconds.references = references.seconds;

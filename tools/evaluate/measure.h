@@ -1,22 +1,12 @@
 // The measurement itself: every candidate and falloff on a shot, against every reference.
 #pragma once
 
-#include "app/statistics.h"
-#include "references.h"
+#include "measure/draw.h"
+#include "measure/references.h"
+#include "options.h"
 #include "truth/metrics.h"
 
 namespace obscura::evaluate {
-
-// A run of frames with one candidate.
-struct Drawing {
-    truth::Plane visibility;
-    std::vector<app::Series> passes;  // the method's own passes in the last timed frame; one value per frame since the pass first ran
-    std::vector<double> own;          // per timed frame: sum of the method's own passes
-    std::vector<double> rest;         // per timed frame: sum of the passes that draw the frame for every method
-    uint64_t bytes = 0;               // graph::Executor::frameBytes()
-};
-// Methods with a history are warmed up until it has converged. Throws app::Complaint if a value is not finite.
-Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao::Falloff& falloff, uint32_t warmUp, uint32_t frames);
 
 // What one candidate drew with one falloff.
 struct Drawn {
@@ -45,16 +35,13 @@ struct ShotResult {
     truth::CapturedFrame frame;    // with pixels only if it is written to a file
     glm::uvec2 size{0}, guard{0};  // visible part, guard band
     uint32_t every = 1;            // RayChoice::every
-    std::vector<ShotReference> references;
+    std::vector<measure::ShotReference> references;
     std::vector<Drawn> drawn;
     std::vector<Row> rows;  // by reference, falloff, candidate
     Seconds seconds;
     bool referencesFromCache = false;
 };
 
-// Rounded to six significant digits, the precision of float errors. Not finite: 0.
-double digits(double value);
-
-ShotResult measure(Machine& machine, Shot& shot, const Options& options);
+ShotResult measure(measure::Machine& machine, measure::Shot& shot, const Options& options);
 
 }  // namespace obscura::evaluate

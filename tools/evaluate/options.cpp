@@ -8,9 +8,9 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
+#include "app/content.h"
 #include "app/voxel_arguments.h"
-#include "arguments.h"
-#include "content.h"
+#include "measure/arguments.h"
 #include "scene/hash.h"
 
 namespace obscura::evaluate {
@@ -22,8 +22,8 @@ namespace {
 
 constexpr const char* kGallery = "gallery.html";  // default name of the page; inside --out if that is given
 
-ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::string& channel) {
-    ReferenceChoice choice;
+measure::ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::string& channel) {
+    measure::ReferenceChoice choice;
     choice.channel = channel;
     for (const std::string& word : words) {
         if (word == "world") choice.world = true;
@@ -47,8 +47,8 @@ void listMethods() {
 }
 
 void listScenes() {
-    for (const SceneFile& scene : namedScenes())
-        fmt::print("{:<12}{}\n", scene.name, scene.file.empty() ? "not found; " + scene.howToGet : scene.file.string());
+    for (const app::SceneFile& scene : app::namedScenes())
+        fmt::print("{:<12}{}\n", scene.info.name, scene.file.empty() ? "not found; " + scene.info.howToGet : scene.file.string());
 }
 
 void expectTogether(const Options& options, bool hasSceneOptions) {
@@ -73,34 +73,6 @@ void expectTogether(const Options& options, bool hasSceneOptions) {
 
 }  // namespace
 
-CameraChoice cameraOf(const std::string& text) {
-    CameraChoice camera;
-    camera.text = text;
-    if (text == "own") return camera;
-    if (text.starts_with("scene:")) {
-        const std::vector<float> index = app::numbers(text.substr(6), ',');
-        if (index.size() != 1 || index[0] < 0.0f || index[0] != std::floor(index[0]) || index[0] > 1e6f)
-            throw Complaint(fmt::format("--camera {}: write scene:N, N counting the file's cameras from 0", text));
-        camera.kind = CameraChoice::Kind::lens;
-        camera.lens = int(index[0]);
-    } else if (text.starts_with("path:")) {
-        const size_t mark = text.rfind('@');
-        const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
-        if (at.size() != 1)
-            throw Complaint(
-                fmt::format("--camera {}: write path:FILE.json@SECONDS, or path:@SECONDS for the scene's own flythrough", text));
-        camera.kind = CameraChoice::Kind::path;
-        camera.file = text.substr(5, mark - 5);
-        camera.at = at[0];
-    } else if (fs::path(text).extension() == ".json") {
-        camera.kind = CameraChoice::Kind::file;
-        camera.file = text;
-    } else {
-        throw Complaint(fmt::format("--camera {}: write own, scene:N, path:FILE.json@SECONDS, or FILE.json", text));
-    }
-    return camera;
-}
-
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
     CLI::App cli{
@@ -116,7 +88,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-evaluate --gallery gallery.html\n"
         "  obscura-evaluate --renew-baseline tests/accuracy/baseline.json");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    CandidateOptions chosen;
+    measure::CandidateOptions chosen;
     std::vector<std::string> falloffTexts, cameras, references;
     std::string size, channel, page, check, renew, capture;
     float time = 0.0f;
@@ -125,8 +97,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.option_defaults()->group("Frames");
     cli.add_option("--capture", capture, "EXR of a captured frame: Z, and N.X N.Y N.Z where there are normals; needs --camera FILE.json");
     auto* scene =
-        takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas"));
-    takeAll(cli.add_option("--camera", cameras,
+        measure::takeAll(cli.add_option("--scene", options.scenes, "toasters, atrium, sponza, dragon, or glTF files; several with commas"));
+    measure::takeAll(cli.add_option("--camera", cameras,
         "own (the view of scenes.json), scene:N, path:FILE@SECONDS, path:@SECONDS (the scene's flythrough), FILE.json; several with "
         "commas"));
     auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (default: 0; on a flythrough the path's time)");
@@ -140,10 +112,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     app::addVoxelArguments(cli, options.voxels, cli.option_defaults()->get_group());
 
     cli.option_defaults()->group("Methods");
-    addCandidateOptions(cli, chosen);
+    measure::addCandidateOptions(cli, chosen);
     cli.add_option("--resolve", chosen.resolve,
         "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history); default: as in the preset");
-    takeAll(cli.add_option("--falloff", falloffTexts,
+    measure::takeAll(cli.add_option("--falloff", falloffTexts,
         "KIND:LENGTH in metres (default: quadratic:2); exponential, linear, quadratic, wendland, constant, or ramp:START:END"));
     auto* frames = cli.add_option("--frames", options.frames, "Timed frames; medians are reported (default: 12; with --gallery 7)")
                        ->check(CLI::Range(1u, 100000u));
@@ -154,7 +126,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->capture_default_str();
 
     cli.option_defaults()->group("References");
-    takeAll(cli.add_option(
+    measure::takeAll(cli.add_option(
         "--reference", references, "world (rays against the triangles), screen (rays through the depth buffer), or an EXR of obscurance"));
     cli.add_option("--channel", channel, "Channel of that EXR (default: named after the falloff, world.quadratic_2)");
     auto* rays = cli.add_option("--rays", options.rays.rays, "Maximum of rays per pixel (default: 4096; with --gallery 256)")
@@ -185,7 +157,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     checkOption->excludes(renewOption);
     every->excludes(gallery)->excludes(checkOption)->excludes(renewOption);  // pages and baselines need all pixels
 
-    addDevice(cli, options.device, options.validation, options.verbose);
+    measure::addDevice(cli, options.device, options.validation, options.verbose);
     cli.add_flag("--list-methods", list, "Print the methods and their presets");
     cli.add_flag("--list-scenes", scenesListed, "Print the named scenes and their files");
 
@@ -205,8 +177,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (!*rays) options.rays.rays = 256;
         if (!*sizeOption) options.size = {480, 270};
         if (!*scene && capture.empty())
-            for (const SceneFile& known : namedScenes())
-                if (!known.file.empty()) options.scenes.push_back(known.name);
+            for (const app::SceneFile& known : app::namedScenes())
+                if (!known.file.empty()) options.scenes.push_back(known.info.name);
     } else if (*checkOption || *renewOption) {
         options.job = *checkOption ? Job::checkBaseline : Job::renewBaseline;
         options.baseline = *checkOption ? check : renew;
@@ -218,15 +190,15 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (cameras.size() > 1) throw Complaint("--camera: a captured frame has one camera, FILE.json");
         if (!cameras.empty()) options.captureCamera = cameras.front();
     } else {
-        for (const std::string& camera : cameras) options.cameras.push_back(cameraOf(camera));
-        if ((options.usualCameras = options.cameras.empty())) options.cameras.push_back(cameraOf("own"));
-        if (options.usualCameras && options.job == Job::gallery) options.cameras.push_back(cameraOf("path:@4"));
+        for (const std::string& camera : cameras) options.cameras.push_back(measure::cameraOf(camera));
+        if ((options.usualCameras = options.cameras.empty())) options.cameras.push_back(measure::cameraOf("own"));
+        if (options.usualCameras && options.job == Job::gallery) options.cameras.push_back(measure::cameraOf("path:@4"));
     }
     const std::vector<std::string> sets = chosen.allSets();
     if (!sets.empty() && options.job == Job::renewBaseline) throw Complaint("--set: a baseline holds presets as they are");
     if (references.empty()) references = {capture.empty() ? "world" : "screen"};
-    options.candidates = candidates(chosen.methods, chosen.presets, sets);
-    options.falloffs = falloffs(falloffTexts.empty() ? std::vector<std::string>{"quadratic:2"} : falloffTexts);
+    options.candidates = measure::candidates(chosen.methods, chosen.presets, sets);
+    options.falloffs = measure::falloffs(falloffTexts.empty() ? std::vector<std::string>{"quadratic:2"} : falloffTexts);
     options.reference = referenceOf(references, channel);
     if (*timeOption && !std::isfinite(time)) throw Complaint("--time: must be a finite number of seconds");
     if (*timeOption) options.time = time;

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/files.h"
-#include "false_colour.h"
+#include "measure/false_colour.h"
 #include "report.h"
 
 namespace obscura::evaluate {
@@ -38,10 +38,10 @@ std::string safe(std::string text) {
 // The references of a shot as one EXR of obscurance channels, which --reference can read.
 void writeReferences(const fs::path& stem, const ShotResult& shot) {
     truth::Picture picture;
-    for (const ShotReference& reference : shot.references) {
+    for (const measure::ShotReference& reference : shot.references) {
         if (picture.find(reference.fileName)) continue;  // a stored channel may serve several falloffs
         truth::Plane obscurance = evaluatedPixels(reference.visibility, shot.every);
-        app::writePng(stem.string() + ".reference." + safe(reference.fileName) + ".png", greyPicture(obscurance));
+        app::writePng(stem.string() + ".reference." + safe(reference.fileName) + ".png", measure::greyPicture(obscurance));
         for (float& value : obscurance.values) value = 1.0f - value;
         picture.add(reference.fileName, std::move(obscurance));
     }
@@ -64,14 +64,14 @@ void writeFolder(const std::vector<ShotResult>& shots, const Options& options, c
             const std::string name = fmt::format(
                 "{}.{}.{}", stem.string(), options.candidates[drawn.candidate].fileName(), options.falloffs[drawn.falloff].fileName());
             truth::writeExr(name + ".visibility.exr", one("Y", drawn.visibility));
-            app::writePng(name + ".visibility.png", greyPicture(drawn.visibility));
+            app::writePng(name + ".visibility.png", measure::greyPicture(drawn.visibility));
         }
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
-            const ShotReference& reference = shot.references[row.reference];
+            const measure::ShotReference& reference = shot.references[row.reference];
             app::writePng(fmt::format("{}.{}.{}.error.{}.png", stem.string(), options.candidates[drawn.candidate].fileName(),
                               options.falloffs[drawn.falloff].fileName(), safe(reference.fileName.substr(0, reference.fileName.find('.')))),
-                errorPicture(evaluatedPixels(drawn.visibility, shot.every), evaluatedPixels(reference.visibility, shot.every)));
+                measure::errorPicture(evaluatedPixels(drawn.visibility, shot.every), evaluatedPixels(reference.visibility, shot.every)));
         }
         writeReferences(stem, shot);
     }

@@ -6,21 +6,21 @@ namespace obscura::evaluate {
 namespace {
 
 void putErrors(Json& json, const truth::Errors& errors) {
-    json["eA"] = digits(errors.eA);
-    json["e5"] = digits(errors.e5);
-    json["bias"] = digits(errors.bias);
-    json["rmse"] = digits(errors.rmse);
-    json["p99"] = digits(errors.p99);
+    json["eA"] = measure::digits(errors.eA);
+    json["e5"] = measure::digits(errors.e5);
+    json["bias"] = measure::digits(errors.bias);
+    json["rmse"] = measure::digits(errors.rmse);
+    json["p99"] = measure::digits(errors.p99);
 }
 
 void putMetrics(Json& json, const truth::Metrics& metrics) {
     putErrors(json, metrics.raw);
     if (metrics.perceptual) {
-        json["ssim"] = digits(metrics.ssim);
-        json["flip"] = digits(metrics.flipMean);
-        json["flipWeightedMedian"] = digits(metrics.flipWeightedMedian);
+        json["ssim"] = measure::digits(metrics.ssim);
+        json["flip"] = measure::digits(metrics.flipMean);
+        json["flipWeightedMedian"] = measure::digits(metrics.flipWeightedMedian);
     }
-    json["gamma"] = digits(metrics.gamma);
+    json["gamma"] = measure::digits(metrics.gamma);
     putErrors(json["adjusted"], metrics.adjusted);
     json["pixels"] = metrics.pixels;
 }
@@ -29,8 +29,8 @@ void putMetrics(Json& json, const truth::Metrics& metrics) {
 
 Json rowJson(const ShotResult& shot, const Row& row, const Options& options, const About& about) {
     const Drawn& drawn = shot.drawn[row.drawn];
-    const ShotReference& reference = shot.references[row.reference];
-    const Candidate& candidate = options.candidates[drawn.candidate];
+    const measure::ShotReference& reference = shot.references[row.reference];
+    const measure::Candidate& candidate = options.candidates[drawn.candidate];
     Json json;
     json["method"] = candidate.info().id;
     json["preset"] = candidate.preset;
@@ -39,19 +39,19 @@ Json rowJson(const ShotResult& shot, const Row& row, const Options& options, con
     json["reference"] = reference.kind;
     json["scene"] = shot.scene;
     json["camera"] = shot.camera;
-    json["time"] = digits(shot.time);
+    json["time"] = measure::digits(shot.time);
     json["size"] = {shot.size.x, shot.size.y};
     json["guard"] = {shot.guard.x, shot.guard.y};
     if (shot.every > 1) json["every"] = shot.every;
     putMetrics(json, row.whole());
     for (size_t i = 1; i < row.regions.size(); ++i)
         putMetrics(json["regions"][truth::kRegionNames[size_t(row.regions[i].region)]], row.regions[i].metrics);
-    json["milliseconds"]["all"] = digits(drawn.milliseconds);
+    json["milliseconds"]["all"] = measure::digits(drawn.milliseconds);
     json["milliseconds"]["passes"] = Json::object();
-    for (const graph::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = digits(pass.milliseconds);
+    for (const graph::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = measure::digits(pass.milliseconds);
     if (reference.rays > 0.0f) {
-        json["referenceRays"] = digits(reference.rays);
-        json["referenceError"] = digits(reference.error);
+        json["referenceRays"] = measure::digits(reference.rays);
+        json["referenceError"] = measure::digits(reference.error);
     }
     json["device"] = about.device;
     json["frames"] = about.frames;

@@ -26,7 +26,7 @@ std::string secondsLine(const ShotResult& shot) {
 // Rays and standard errors of the references.
 std::string referenceLines(const ShotResult& shot, const char* bullet) {
     std::string text;
-    for (const ShotReference& reference : shot.references)
+    for (const measure::ShotReference& reference : shot.references)
         if (reference.rays > 0.0f)
             text += fmt::format("{}{} {}: {:.0f} rays per pixel, standard error {:.4f} (means)\n", bullet, reference.kind,
                 reference.falloff, reference.rays, reference.error);
@@ -52,7 +52,7 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             "|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
-            const Candidate& candidate = options.candidates[drawn.candidate];
+            const measure::Candidate& candidate = options.candidates[drawn.candidate];
             const truth::Metrics& m = row.whole();
             text += fmt::format(
                 "| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} | {} | {:.2f} | {:.4f} | {:.2f} |\n",
@@ -66,7 +66,7 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
         for (const Row& row : shot.rows)
             for (size_t i = 1; i < row.regions.size(); ++i) {
                 const truth::Metrics& m = row.regions[i].metrics;
-                const Candidate& candidate = options.candidates[shot.drawn[row.drawn].candidate];
+                const measure::Candidate& candidate = options.candidates[shot.drawn[row.drawn].candidate];
                 text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} |\n",
                     candidate.info().id, candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
                     truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99,
@@ -74,7 +74,7 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             }
         text += "\n| method | preset | falloff | pass | ms |\n|---|---|---|---|--:|\n";
         for (const Drawn& drawn : shot.drawn) {
-            const Candidate& candidate = options.candidates[drawn.candidate];
+            const measure::Candidate& candidate = options.candidates[drawn.candidate];
             const std::string lead =
                 fmt::format("| {} | {} | {} | ", candidate.info().id, candidate.preset, options.falloffs[drawn.falloff].text);
             for (const graph::PassTime& pass : drawn.passes) text += fmt::format("{}{} | {:.3f} |\n", lead, pass.name, pass.milliseconds);
@@ -100,7 +100,7 @@ std::string textTable(const std::vector<ShotResult>& shots, const Options& optio
             falloff, "reference", kind, "eA", "e<5%", "bias", "rmse", "p99", "ssim", "flip", "ms");
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];
-            const ShotReference& reference = shot.references[row.reference];
+            const measure::ShotReference& reference = shot.references[row.reference];
             const truth::Metrics& m = row.whole();
             text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:>7} {:>7} {:8.2f}\n",
                 options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, m.raw.eA, m.raw.e5,

@@ -10,11 +10,11 @@
 
 #include "app/complaint.h"
 #include "app/files.h"
-#include "app/picture.h"
 #include "app/progress.h"
 #include "app/statistics.h"
+#include "measure/draw.h"
+#include "measure/false_colour.h"
 #include "scene/hash.h"
-#include "shot.h"
 #include "truth/cache.h"
 #include "truth/world_reference.h"
 
@@ -27,18 +27,8 @@ namespace {
 constexpr uint32_t kMeasure = 2;  // version of the measurement; chunks of other versions are measured again
 constexpr uint32_t kStillWarmUp = 32, kStillFrames = 32;
 
-// Linear values, without sRGB encoding.
-app::Picture grey(const truth::Plane& plane) {
-    app::Picture picture{plane.width, plane.height, {}};
-    for (const float v : plane.values) {
-        const uint8_t level = uint8_t(std::lround(255.0f * std::clamp(v, 0.0f, 1.0f)));
-        picture.rgba.insert(picture.rgba.end(), {level, level, level, 255});
-    }
-    return picture;
-}
-
 // A method uses shaders of its own folder and shared ones.
-bool mayRun(const evaluate::Candidate& candidate, std::string_view shader) {
+bool mayRun(const measure::Candidate& candidate, std::string_view shader) {
     if (shader == "ao/common/temporal.comp") return hasHistory(candidate);
     return shader.starts_with("ao/common/") || shader.starts_with(fmt::format("ao/{}/", candidate.info().id)) ||
            (shader.starts_with("ao/offscreen/") && candidate.values.has("offscreen") && candidate.values["offscreen"] > 0.0f);
@@ -48,13 +38,13 @@ std::filesystem::path pictureFile(const std::filesystem::path& folder, uint32_t 
 
 }  // namespace
 
-bool hasHistory(const evaluate::Candidate& candidate) { return candidate.values.has("temporal") && candidate.values["temporal"] > 0.0f; }
-const ao::Preset& ownFilter(const evaluate::Candidate& candidate) {
+bool hasHistory(const measure::Candidate& candidate) { return candidate.values.has("temporal") && candidate.values["temporal"] > 0.0f; }
+const ao::Preset& ownFilter(const measure::Candidate& candidate) {
     return *ao::findResolvePreset(hasHistory(candidate) ? "temporal" : "spatial");
 }
 
-evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Preset& filter) {
-    evaluate::Candidate result = candidate;
+measure::Candidate filtered(const measure::Candidate& candidate, const ao::Preset& filter) {
+    measure::Candidate result = candidate;
     result.values.resolve(filter);
     const bool asked = hasHistory(candidate) || std::any_of(candidate.settings.begin(), candidate.settings.end(),
                                                     [](const std::string& s) { return s.starts_with("temporal="); });
@@ -62,11 +52,11 @@ evaluate::Candidate filtered(const evaluate::Candidate& candidate, const ao::Pre
     return result;
 }
 
-Flight::Flight(evaluate::Machine& machine, const Script& script, const Settings& settings)
+Flight::Flight(measure::Machine& machine, const Script& script, const Settings& settings)
     : m_machine(machine),
       m_settings(settings),
       m_stage(script),
-      m_falloff(settings.falloff ? *settings.falloff : evaluate::falloffs({script.falloff})[0]) {
+      m_falloff(settings.falloff ? *settings.falloff : measure::falloffs({script.falloff})[0]) {
     for (const Event& event : script.events)
         if (event.frame > 0 && event.frame >= settings.first && event.frame < settings.end &&
             (m_events.empty() || m_events.back() != event.frame))
@@ -103,7 +93,7 @@ void Flight::draw() {
     for (uint32_t frame = 0; frame < end; ++frame) {
         progress.at(frame);
         glm::uvec2 size(0);
-        const evaluate::Machine::Ran ran = m_machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
+        const measure::Machine::Ran ran = m_machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
             render::FrameOptions wanted = options(frame);
             wanted.method = &none;
             wanted.cut = frame == 0;
@@ -111,7 +101,7 @@ void Flight::draw() {
             size = {graph.desc(outputs.linearDepth).width, graph.desc(outputs.linearDepth).height};
             return std::vector{outputs.linearDepth, outputs.normals, outputs.motion};
         });
-        Geometry geometry{evaluate::capturedFrame(m_settings.size, m_stage.cameraAt(frame), size, ran.images[0], ran.images[1]), {}, {}};
+        Geometry geometry{measure::capturedFrame(m_settings.size, m_stage.cameraAt(frame), size, ran.images[0], ran.images[1]), {}, {}};
         const truth::CapturedFrame& captured = geometry.frame;
         std::vector<uint32_t> halves(captured.depth.size());
         std::memcpy(halves.data(), ran.images[2].data(), ran.images[2].size());
@@ -150,7 +140,7 @@ void Flight::trace() {
     }
 }
 
-std::string Flight::keyOf(const evaluate::Candidate& candidate, const ao::Preset& filter) const {
+std::string Flight::keyOf(const measure::Candidate& candidate, const ao::Preset& filter) const {
     scene::Hash hash;
     const Script& script = m_stage.script();
     hash.add(kMeasure)
@@ -166,7 +156,7 @@ std::string Flight::keyOf(const evaluate::Candidate& candidate, const ao::Preset
         .add(int(m_settings.still))
         .add(std::string(candidate.info().id))
         .add(std::string(filter.id));
-    const evaluate::Candidate used = filtered(candidate, filter);
+    const measure::Candidate used = filtered(candidate, filter);
     for (const float value : used.values.values()) hash.add(value);
     for (const std::string& setting : candidate.settings)
         if (setting.starts_with("voxel")) hash.add(setting);
@@ -183,60 +173,52 @@ std::string Flight::keyOf(const evaluate::Candidate& candidate, const ao::Preset
     return hash.hex();
 }
 
-Part Flight::empty(const evaluate::Candidate& candidate, const ao::Preset& filter) const {
-    Part part;
-    part.flythrough = m_stage.script().name;
-    part.method = candidate.info().id;
-    part.preset = candidate.preset;
-    for (const std::string& setting : candidate.settings) part.settings += (part.settings.empty() ? "" : " ") + setting;
-    part.filter = filter.id;
-    part.falloff = m_falloff.text;
-    part.width = m_settings.size.x;
-    part.height = m_settings.size.y;
-    part.rays = m_settings.rays;
-    part.first = m_settings.first;
-    part.end = m_settings.end;
-    part.key = keyOf(candidate, filter);
-    return part;
+Chunk Flight::empty(const measure::Candidate& candidate, const ao::Preset& filter) const {
+    Chunk chunk;
+    chunk.flythrough = m_stage.script().name;
+    chunk.method = candidate.info().id;
+    chunk.preset = candidate.preset;
+    for (const std::string& setting : candidate.settings) chunk.settings += (chunk.settings.empty() ? "" : " ") + setting;
+    chunk.filter = filter.id;
+    chunk.falloff = m_falloff.text;
+    chunk.width = m_settings.size.x;
+    chunk.height = m_settings.size.y;
+    chunk.rays = m_settings.rays;
+    chunk.first = m_settings.first;
+    chunk.end = m_settings.end;
+    chunk.key = keyOf(candidate, filter);
+    return chunk;
 }
 
-Flight::Drawn Flight::draw(const evaluate::Candidate& candidate, uint32_t frame, bool cut) {
-    evaluate::Machine::Ran ran = m_machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
+Flight::Drawn Flight::draw(const measure::Candidate& candidate, uint32_t frame, bool cut) {
+    measure::Machine::Ran ran = m_machine.run(0, 1, [&](graph::Graph& graph, uint32_t) {
         render::FrameOptions wanted = options(frame);
         wanted.method = &candidate.values;
         wanted.voxels = candidate.voxels.over(wanted.voxels);
         wanted.cut = cut;
         return std::vector{m_renderer->add(graph, m_stage.worldAt(frame), wanted).visibility};
     });
-    Drawn drawn{truth::Plane(m_settings.size.x, m_settings.size.y), {}};
-    const std::vector<std::byte>& bytes = ran.images[0];
-    for (size_t i = 0; i < drawn.visibility.pixels(); ++i) {
-        uint16_t half;
-        std::memcpy(&half, bytes.data() + 2 * i, 2);
-        drawn.visibility.values[i] = glm::unpackHalf1x16(half);
-        if (!std::isfinite(drawn.visibility.values[i]))
-            throw Complaint(
-                fmt::format("{} drew {} in frame {} of {}", candidate.label(), drawn.visibility.values[i], frame, m_stage.script().name),
-                app::kFailed);
-    }
+    Drawn drawn{measure::planeOf(
+                    ran.images[0], m_settings.size, fmt::format("{}, frame {} of {}", candidate.label(), frame, m_stage.script().name)),
+        {}};
     for (graph::PassTime& pass : ran.passes)
         if (std::find(m_framePasses.begin(), m_framePasses.end(), pass.name) == m_framePasses.end())
             drawn.passes.push_back(std::move(pass));
     return drawn;
 }
 
-Part Flight::measure(const evaluate::Candidate& chosen, const ao::Preset& filter) {
-    const evaluate::Candidate candidate = filtered(chosen, filter);
-    Part part = empty(chosen, filter);
+Chunk Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter) {
+    const measure::Candidate candidate = filtered(chosen, filter);
+    Chunk chunk = empty(chosen, filter);
     m_machine.expectMethod(m_renderer->library(), candidate.info());
-    const std::filesystem::path folder = m_settings.out / "frames" / part.name();
+    const std::filesystem::path folder = m_settings.out / "frames" / chunk.name();
     if (m_settings.pictures) {
-        part.pictures = "frames/" + part.name();
+        chunk.pictures = "frames/" + chunk.name();
         app::expectFolder(folder);
     }
     std::map<std::string, app::Series> times;
     std::vector<truth::Plane> pictures;
-    app::Progress progress(part.name(), m_geometry.size() + (m_settings.still && m_settings.first == 0 ? kStillWarmUp + kStillFrames : 0));
+    app::Progress progress(chunk.name(), m_geometry.size() + (m_settings.still && m_settings.first == 0 ? kStillWarmUp + kStillFrames : 0));
     for (uint32_t frame = 0; frame < m_geometry.size(); ++frame) {
         progress.at(frame);
         Drawn drawn = draw(candidate, frame, frame == 0);
@@ -268,14 +250,14 @@ Part Flight::measure(const evaluate::Candidate& chosen, const ao::Preset& filter
             row.flickerOfError = change.flickerOfError;
             row.referenceFlicker = change.referenceFlicker;
         }
-        part.frames.push_back(row);
-        if (m_settings.pictures) app::writePng(pictureFile(folder, frame), grey(picture));
+        chunk.frames.push_back(row);
+        if (m_settings.pictures) app::writePng(pictureFile(folder, frame), measure::greyPicture(picture));
     }
     for (const uint32_t event : m_events) {
         const std::span<const truth::Plane> after(pictures.begin() + event, pictures.begin() + endOfState(event));
         const truth::Lag lag = truth::lag(pictures[event - 1], after, m_references[event - 1].visibility, m_references[event].visibility,
             truth::stayed(m_geometry[event - 1].frame, m_geometry[event].frame));
-        part.events.push_back({event, uint32_t(lag.pixels), lag.t90, lag.ghost});
+        chunk.events.push_back({event, uint32_t(lag.pixels), lag.t90, lag.ghost});
     }
     if (m_settings.still && m_settings.first == 0) {
         truth::StaticNoise noise;
@@ -285,17 +267,17 @@ Part Flight::measure(const evaluate::Candidate& chosen, const ao::Preset& filter
             if (i >= kStillWarmUp) noise.add(drawn.visibility);
         }
         const truth::StaticNoise::Result spread = noise.over(m_geometry[0].visible);
-        part.still = StaticRow{spread.mean, spread.p99};
+        chunk.still = StaticRow{spread.mean, spread.p99};
     }
-    for (const auto& [pass, series] : times) part.passes.push_back({pass, series.median(), series.p95()});
-    return part;
+    for (const auto& [pass, series] : times) chunk.passes.push_back({pass, series.median(), series.p95()});
+    return chunk;
 }
 
 void Flight::writeReferencePictures() const {
     const std::filesystem::path folder = m_settings.out / "frames" / (m_stage.script().name + ".reference");
     app::expectFolder(folder);
     for (uint32_t frame = m_settings.first; frame < m_settings.end; ++frame)
-        app::writePng(pictureFile(folder, frame), grey(m_references[frame].visibility));
+        app::writePng(pictureFile(folder, frame), measure::greyPicture(m_references[frame].visibility));
 }
 
 }  // namespace obscura::flythrough

@@ -17,71 +17,72 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::map<CalmKey, CalmRow> measureRows(const Calm& calm, const Options& options) {
+std::map<FlickerKey, FlickerRow> measureRows(const FlickerBaseline& baseline, const Options& options) {
     Settings settings;
-    settings.size = calm.size;
-    settings.length = settings.end = calm.length;
-    settings.rays = calm.rays;
+    settings.size = baseline.size;
+    settings.length = settings.end = baseline.length;
+    settings.rays = baseline.rays;
     settings.pictures = false;
     settings.cache = options.settings.cache;
-    evaluate::Machine machine({options.device, options.validation, options.verbose});
-    std::map<CalmKey, CalmRow> rows;
-    for (const std::string& name : calm.flythroughs) {
+    measure::Machine machine({options.device, options.validation, options.verbose});
+    std::map<FlickerKey, FlickerRow> rows;
+    for (const std::string& name : baseline.flythroughs) {
         Flight flight(machine, findScript(name), settings);
-        for (const evaluate::Candidate& candidate : options.candidates)
+        for (const measure::Candidate& candidate : options.candidates)
             for (const ao::Preset& filter : ao::resolvePresets()) {
                 if (!candidate.info().needs) continue;  // `none` cannot flicker
-                if (std::find(calm.filters.begin(), calm.filters.end(), filter.id) == calm.filters.end()) continue;
-                const Part part = flight.measure(candidate, filter);
-                const Summary summary = summarize(part);
-                rows[{part.method, part.preset, part.flythrough, part.filter}] = {summary.flickerOfError, summary.noiseMean, summary.t90};
+                if (std::find(baseline.filters.begin(), baseline.filters.end(), filter.id) == baseline.filters.end()) continue;
+                const Chunk chunk = flight.measure(candidate, filter);
+                const Summary summary = summarize(chunk);
+                rows[{chunk.method, chunk.preset, chunk.flythrough, chunk.filter}] = {
+                    summary.flickerOfError, summary.noiseMean, summary.t90};
             }
     }
     return rows;
 }
 
-std::string name(const CalmKey& key) {
+std::string name(const FlickerKey& key) {
     return fmt::format("{} {}, {}, {}", std::get<0>(key), std::get<1>(key), std::get<2>(key), std::get<3>(key));
 }
 
 }  // namespace
 
-Calm readCalm(const fs::path& file) {
+FlickerBaseline readBaseline(const fs::path& file) {
     const scene::JsonFile json(file);
     const scene::JsonAt root = json.root();
     root.only({"about", "size", "length", "rays", "relative", "absolute", "flythroughs", "filters", "rows"});
-    Calm calm;
+    FlickerBaseline baseline;
     root.at("size").expectNumbers(2);
-    calm.size = {root.at("size").at(size_t(0)).whole(16, 8192), root.at("size").at(1).whole(16, 8192)};
-    calm.length = uint32_t(root.at("length").whole(2, 100000));
-    calm.rays = uint32_t(root.at("rays").whole(32, 65536));
-    calm.relative = root.at("relative").number(0.0, 10.0);
-    calm.absolute = root.at("absolute").number(0.0, 1.0);
-    calm.flythroughs = scene::texts(root.at("flythroughs"));
-    calm.filters = scene::texts(root.at("filters"));
+    baseline.size = {root.at("size").at(size_t(0)).whole(16, 8192), root.at("size").at(1).whole(16, 8192)};
+    baseline.length = uint32_t(root.at("length").whole(2, 100000));
+    baseline.rays = uint32_t(root.at("rays").whole(32, 65536));
+    baseline.relative = root.at("relative").number(0.0, 10.0);
+    baseline.absolute = root.at("absolute").number(0.0, 1.0);
+    baseline.flythroughs = scene::texts(root.at("flythroughs"));
+    baseline.filters = scene::texts(root.at("filters"));
     const scene::JsonAt rows = root.at("rows").expectArray();
     for (size_t i = 0; i < rows.size(); ++i) {
         const scene::JsonAt at = rows.at(i);
         at.only({"method", "preset", "flythrough", "filter", "flickerOfError", "noise", "t90"});
-        calm.rows[{at.at("method").text(), at.at("preset").text(), at.at("flythrough").text(), at.at("filter").text()}] = {
+        baseline.rows[{at.at("method").text(), at.at("preset").text(), at.at("flythrough").text(), at.at("filter").text()}] = {
             at.at("flickerOfError").number(0.0, 1.0), at.at("noise").number(0.0, 1.0), uint32_t(at.at("t90").whole(0, 100000))};
     }
-    return calm;
+    return baseline;
 }
 
-std::string calmText(const Calm& calm) {
+std::string baselineText(const FlickerBaseline& baseline) {
     // Not dumped by the JSON library: one line per row keeps diffs readable.
     const Json head{{"about",
                         "Flicker of error, static noise and lag (frames). A row may not worsen by more than `relative` of itself and "
                         "`absolute`. Renew: "
                         "obscura-flythrough --renew-baseline THIS"},
-        {"size", {calm.size.x, calm.size.y}}, {"length", calm.length}, {"rays", calm.rays}, {"relative", calm.relative},
-        {"absolute", calm.absolute}, {"flythroughs", calm.flythroughs}, {"filters", calm.filters}};
+        {"size", {baseline.size.x, baseline.size.y}}, {"length", baseline.length}, {"rays", baseline.rays}, {"relative", baseline.relative},
+        {"absolute", baseline.absolute}, {"flythroughs", baseline.flythroughs}, {"filters", baseline.filters}};
     std::string text = "{\n";
     for (const auto& [key, value] : head.items()) text += fmt::format("  {}: {},\n", Json(key).dump(), value.dump());
     text += "  \"rows\": [";
     const char* separator = "\n";
-    for (const auto& [key, row] : calm.rows) {
+    for (const auto& [key, row] : baseline.rows) {
         const auto rounded = [](double v) { return std::stod(fmt::format("{:.6f}", v)); };
         const Json line{{"method", std::get<0>(key)}, {"preset", std::get<1>(key)}, {"flythrough", std::get<2>(key)},
             {"filter", std::get<3>(key)}, {"flickerOfError", rounded(row.flickerOfError)}, {"noise", rounded(row.noise)}, {"t90", row.t90}};
@@ -91,32 +92,32 @@ std::string calmText(const Calm& calm) {
     return text + "\n  ]\n}\n";
 }
 
-std::vector<std::string> judge(const Calm& held, const std::map<CalmKey, CalmRow>& measured) {
+std::vector<std::string> judge(const FlickerBaseline& baseline, const std::map<FlickerKey, FlickerRow>& measured) {
     std::vector<std::string> lines;
-    const auto worse = [&](double now, double was) { return now - was > std::max(held.absolute, held.relative * was); };
+    const auto worse = [&](double now, double was) { return now - was > std::max(baseline.absolute, baseline.relative * was); };
     for (const auto& [key, row] : measured) {
-        const auto found = held.rows.find(key);
-        if (found == held.rows.end()) {
+        const auto found = baseline.rows.find(key);
+        if (found == baseline.rows.end()) {
             lines.push_back(fmt::format("{}: not in the baseline (flicker of error {:.5f}, noise {:.5f}, T90 {})", name(key),
                 row.flickerOfError, row.noise, row.t90));
             continue;
         }
-        const CalmRow& was = found->second;
+        const FlickerRow& was = found->second;
         if (worse(row.flickerOfError, was.flickerOfError))
             lines.push_back(fmt::format("{}: flicker of error {:.5f}, was {:.5f}", name(key), row.flickerOfError, was.flickerOfError));
         if (worse(row.noise, was.noise)) lines.push_back(fmt::format("{}: noise {:.5f}, was {:.5f}", name(key), row.noise, was.noise));
-        if (double(row.t90) > double(was.t90) * (1.0 + held.relative))
+        if (double(row.t90) > double(was.t90) * (1.0 + baseline.relative))
             lines.push_back(fmt::format("{}: T90 {} frames, was {}", name(key), row.t90, was.t90));
     }
     return lines;
 }
 
 int checkBaseline(const Options& options) {
-    const Calm held = readCalm(options.baseline);
-    const std::map<CalmKey, CalmRow> measured = measureRows(held, options);
-    const std::vector<std::string> lines = judge(held, measured);
+    const FlickerBaseline baseline = readBaseline(options.baseline);
+    const std::map<FlickerKey, FlickerRow> measured = measureRows(baseline, options);
+    const std::vector<std::string> lines = judge(baseline, measured);
     for (const std::string& line : lines) fmt::print("  {}\n", line);
-    if (lines.empty()) fmt::print("passed: {} rows, none worse by more than {:g} %\n", measured.size(), 100.0 * held.relative);
+    if (lines.empty()) fmt::print("passed: {} rows, none worse by more than {:g} %\n", measured.size(), 100.0 * baseline.relative);
     else
         fmt::print("failed: {} of {} rows. If this change is intended: obscura-flythrough --renew-baseline {}\n", lines.size(),
             measured.size(), options.baseline.string());
@@ -126,14 +127,14 @@ int checkBaseline(const Options& options) {
 int renewBaseline(const Options& options) {
     app::expectWritable(options.baseline);
     std::error_code ignored;
-    Calm calm;
-    if (fs::is_regular_file(options.baseline, ignored)) calm = readCalm(options.baseline);
-    const std::map<CalmKey, CalmRow> measured = measureRows(calm, options);
+    FlickerBaseline baseline;
+    if (fs::is_regular_file(options.baseline, ignored)) baseline = readBaseline(options.baseline);
+    const std::map<FlickerKey, FlickerRow> measured = measureRows(baseline, options);
     // Replaces all rows, or those of the selected methods only.
-    if (options.candidates.size() == evaluate::candidates({"all"}, {"default"}, {}).size()) calm.rows.clear();
-    for (const auto& [key, row] : measured) calm.rows[key] = row;
-    app::writeFile(options.baseline, calmText(calm));
-    fmt::print("{}: {} rows, {} measured now\n", options.baseline.string(), calm.rows.size(), measured.size());
+    if (options.candidates.size() == measure::candidates({"all"}, {"default"}, {}).size()) baseline.rows.clear();
+    for (const auto& [key, row] : measured) baseline.rows[key] = row;
+    app::writeFile(options.baseline, baselineText(baseline));
+    fmt::print("{}: {} rows, {} measured now\n", options.baseline.string(), baseline.rows.size(), measured.size());
     return 0;
 }
 

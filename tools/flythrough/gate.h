@@ -8,24 +8,24 @@
 
 namespace obscura::flythrough {
 
-struct CalmRow {
+struct FlickerRow {
     double flickerOfError = 0.0, noise = 0.0;
     uint32_t t90 = 0;
 };
-using CalmKey = std::tuple<std::string, std::string, std::string, std::string>;  // method, preset, flythrough, filter
+using FlickerKey = std::tuple<std::string, std::string, std::string, std::string>;  // method, preset, flythrough, filter
 
-struct Calm {
+struct FlickerBaseline {
     glm::uvec2 size{112, 63};
     uint32_t length = 32, rays = 256;
     double relative = 0.05, absolute = 1e-4;  // a row may grow by the larger of the two; T90 by `relative` of itself
     std::vector<std::string> flythroughs{"teleport", "close-up"}, filters{"spatial", "temporal"};
-    std::map<CalmKey, CalmRow> rows;
+    std::map<FlickerKey, FlickerRow> rows;
 };
-Calm readCalm(const std::filesystem::path& file);  // throws scene::Error
-std::string calmText(const Calm& calm);
+FlickerBaseline readBaseline(const std::filesystem::path& file);  // throws scene::Error
+std::string baselineText(const FlickerBaseline& baseline);
 
 // Lines on rows that became worse and on rows missing from the file; empty: passed.
-std::vector<std::string> judge(const Calm& held, const std::map<CalmKey, CalmRow>& measured);
+std::vector<std::string> judge(const FlickerBaseline& baseline, const std::map<FlickerKey, FlickerRow>& measured);
 
 // Both print their result and return an exit code.
 int checkBaseline(const Options& options);

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> partFiles(const fs::path& folder) {
+std::vector<fs::path> chunkFiles(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder / "parts", error))
@@ -23,59 +23,59 @@ std::vector<fs::path> partFiles(const fs::path& folder) {
     return files;
 }
 
-void finish(const std::vector<Part>& parts, const std::string& device, const Options& options) {
-    std::fputs(table(parts).c_str(), stdout);
-    writeReport(parts, device, options.settings.out);
-    if (options.video) writeVideos(parts, options.settings.out);
+void finish(const std::vector<Chunk>& chunks, const std::string& device, const Options& options) {
+    std::fputs(table(chunks).c_str(), stdout);
+    writeReport(chunks, device, options.settings.out);
+    if (options.video) writeVideos(chunks, options.settings.out);
     fmt::print("{}\n", (options.settings.out / "report.html").string());
 }
 
 int fly(const Options& options) {
     const fs::path& out = options.settings.out;
     app::expectFolder(out / "parts");
-    evaluate::Machine machine({options.device, options.validation, options.verbose});
-    std::vector<Part> parts;
+    measure::Machine machine({options.device, options.validation, options.verbose});
+    std::vector<Chunk> chunks;
     for (const std::string& name : options.flythroughs) {
         Flight flight(machine, findScript(name), options.settings);
         if (options.settings.pictures) flight.writeReferencePictures();
-        for (const evaluate::Candidate& candidate : options.candidates)
+        for (const measure::Candidate& candidate : options.candidates)
             for (const ao::Preset* filter : options.filters) {
-                const Part wanted = flight.empty(candidate, *filter);
+                const Chunk wanted = flight.empty(candidate, *filter);
                 const fs::path file = out / "parts" / fmt::format("{}.{}-{}.json", wanted.name(), wanted.first, wanted.end);
-                std::optional<Part> part = options.again ? std::nullopt : readPart(file);
-                if (!part || part->key != wanted.key) {
-                    part = flight.measure(candidate, *filter);
-                    app::writeFile(file, partText(*part));
+                std::optional<Chunk> chunk = options.again ? std::nullopt : readChunk(file);
+                if (!chunk || chunk->key != wanted.key) {
+                    chunk = flight.measure(candidate, *filter);
+                    app::writeFile(file, chunkText(*chunk));
                 }
-                parts.push_back(std::move(*part));
+                chunks.push_back(std::move(*chunk));
             }
     }
-    finish(joined(std::move(parts)), machine.deviceName(), options);
+    finish(joined(std::move(chunks)), machine.deviceName(), options);
     return machine.device().validationMessages() ? app::kInvalidUse : 0;
 }
 
 int merge(const Options& options) {
     const fs::path& out = options.settings.out;
     app::expectFolder(out / "parts");
-    std::vector<Part> parts;
+    std::vector<Chunk> chunks;
     for (const fs::path& folder : options.merged) {
-        const std::vector<fs::path> files = partFiles(folder);
+        const std::vector<fs::path> files = chunkFiles(folder);
         if (files.empty())
             throw app::Complaint(
                 fmt::format("--merge {}: contains no chunks of a run; name folders that earlier runs wrote with --out", folder.string()));
         for (const fs::path& file : files) {
-            const auto part = readPart(file);
-            if (!part) throw app::Complaint(fmt::format("{}: is damaged; measure these frames again", file.string()));
-            parts.push_back(*part);
+            const auto chunk = readChunk(file);
+            if (!chunk) throw app::Complaint(fmt::format("{}: is damaged; measure these frames again", file.string()));
+            chunks.push_back(*chunk);
         }
         std::error_code ignored;
         if (fs::is_directory(folder / "frames", ignored) && !fs::equivalent(folder, out, ignored))
             fs::copy(folder / "frames", out / "frames", fs::copy_options::recursive | fs::copy_options::update_existing);
     }
-    parts = joined(std::move(parts));
-    for (const Part& part : parts)
-        app::writeFile(out / "parts" / fmt::format("{}.{}-{}.json", part.name(), part.first, part.end), partText(part));
-    finish(parts, "", options);
+    chunks = joined(std::move(chunks));
+    for (const Chunk& chunk : chunks)
+        app::writeFile(out / "parts" / fmt::format("{}.{}-{}.json", chunk.name(), chunk.first, chunk.end), chunkText(chunk));
+    finish(chunks, "", options);
     return 0;
 }
 

@@ -8,7 +8,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
-#include "arguments.h"
+#include "measure/arguments.h"
 
 namespace obscura::flythrough {
 
@@ -22,9 +22,9 @@ void setFrames(const std::string& text, Settings& settings) {
     settings.end = settings.length;
     if (text.empty()) return;
     const std::vector<float> range = app::numbers(text, ':');
-    const bool good = range.size() == 2 && range[0] >= 0.0f && range[0] < range[1] && range[0] == float(uint32_t(range[0])) &&
-                      range[1] == float(uint32_t(range[1]));
-    if (!good || range[1] > float(settings.length))
+    const bool valid = range.size() == 2 && range[0] >= 0.0f && range[0] < range[1] && range[0] == float(uint32_t(range[0])) &&
+                       range[1] == float(uint32_t(range[1]));
+    if (!valid || range[1] > float(settings.length))
         throw Complaint(fmt::format(
             "--frames {}: write FIRST:END, such as 0:16; the flythrough has frames 0 to {} (--length)", text, settings.length - 1));
     settings.first = uint32_t(range[0]);
@@ -56,11 +56,11 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-flythrough --flythrough all --method all --print-jobs 8 --out /share/run | parallel\n"
         "  obscura-flythrough --merge /share/run/part-0,/share/run/part-1 --out /share/run/all");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    evaluate::CandidateOptions chosen;
+    measure::CandidateOptions chosen;
     std::vector<std::string> filters{"raw", "spatial", "temporal"}, merged;
     std::string size, frames, falloff, out = "out/flythrough", check, renew;
     bool list = false, noPictures = false, noVideo = false, noCache = false;
-    using evaluate::takeAll;
+    using measure::takeAll;
 
     cli.option_defaults()->group("Flythrough");
     takeAll(cli.add_option("--flythrough", options.flythroughs,
@@ -101,7 +101,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the rows of those methods)")
         ->excludes(checkOption);
 
-    evaluate::addDevice(cli, options.device, options.validation, options.verbose);
+    measure::addDevice(cli, options.device, options.validation, options.verbose);
     cli.add_flag("--list", list, "Print the names of the flythroughs");
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
@@ -132,10 +132,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         for (const Script& script : scripts()) options.flythroughs.push_back(script.name);
     }
     for (const std::string& flythrough : options.flythroughs) findScript(flythrough);
-    options.candidates = evaluate::candidates(chosen.methods, chosen.presets, chosen.allSets());
-    for (const std::string& filter : filters) options.filters.push_back(&evaluate::resolvePreset("--modes " + filter, filter));
+    options.candidates = measure::candidates(chosen.methods, chosen.presets, chosen.allSets());
+    for (const std::string& filter : filters) options.filters.push_back(&measure::resolvePreset("--modes " + filter, filter));
     if (*sizeOption) options.settings.size = app::sizeOf(size);
-    if (!falloff.empty()) options.settings.falloff = evaluate::falloffs({falloff})[0];
+    if (!falloff.empty()) options.settings.falloff = measure::falloffs({falloff})[0];
     setFrames(frames, options.settings);
     if (options.slurm && !options.jobs) throw Complaint("--slurm: needs --print-jobs N, the number of jobs");
     if (options.jobs) {
@@ -166,12 +166,12 @@ std::string jobList(const Options& options) {
         return fmt::format("{}{} --no-video --frames {}:{} --out {}", options.program, options.arguments, first, end,
             app::shellWord(fmt::format("{}/part-{}", out, job)));
     };
-    std::string parts, commands;
+    std::string folders, commands;
     for (uint32_t job = 0; job < options.jobs; ++job) {
-        parts += fmt::format("{}{}/part-{}", job ? "," : "", out, job);
+        folders += fmt::format("{}{}/part-{}", job ? "," : "", out, job);
         commands += options.slurm ? fmt::format("  {}) {} ;;\n", job, command(job)) : command(job) + "\n";
     }
-    const std::string merge = fmt::format("{} --merge {} --out {}", options.program, app::shellWord(parts), app::shellWord(out));
+    const std::string merge = fmt::format("{} --merge {} --out {}", options.program, app::shellWord(folders), app::shellWord(out));
     if (!options.slurm) return commands + "# then: " + merge + "\n";
     return fmt::format(
         "#!/bin/sh\n#SBATCH --job-name=obscura-flythrough\n#SBATCH --array=0-{}\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n# then: {}\n",

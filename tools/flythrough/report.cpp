@@ -22,62 +22,62 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string bareKey(const Part& part) { return part.flythrough + "/" + part.label(); }
+std::string rawKey(const Chunk& chunk) { return chunk.flythrough + "/" + chunk.label(); }
 
 // F_e of the raw pictures, to which the filters are compared.
-std::map<std::string, double> rawFlicker(const std::vector<Part>& parts) {
+std::map<std::string, double> rawFlicker(const std::vector<Chunk>& chunks) {
     std::map<std::string, double> result;
-    for (const Part& part : parts)
-        if (part.filter == "raw") result[bareKey(part)] = summarize(part).flickerOfError;
+    for (const Chunk& chunk : chunks)
+        if (chunk.filter == "raw") result[rawKey(chunk)] = summarize(chunk).flickerOfError;
     return result;
 }
 
-std::string ratio(const std::map<std::string, double>& bare, const Part& part, const Summary& s, const char* none) {
-    const auto found = bare.find(bareKey(part));
-    return found == bare.end() || found->second <= 0.0 ? none : fmt::format("{:.2f}", s.flickerOfError / found->second);
+std::string ratio(const std::map<std::string, double>& raw, const Chunk& chunk, const Summary& s, const char* none) {
+    const auto found = raw.find(rawKey(chunk));
+    return found == raw.end() || found->second <= 0.0 ? none : fmt::format("{:.2f}", s.flickerOfError / found->second);
 }
 
 }  // namespace
 
-std::string table(const std::vector<Part>& parts) {
+std::string table(const std::vector<Chunk>& chunks) {
     size_t width = 6;
-    for (const Part& part : parts) width = std::max(width, part.label().size());
+    for (const Chunk& chunk : chunks) width = std::max(width, chunk.label().size());
     std::string text, flythrough;
-    const std::map<std::string, double> bare = rawFlicker(parts);
-    for (const Part& part : parts) {
-        if (part.flythrough != flythrough) {
-            flythrough = part.flythrough;
+    const std::map<std::string, double> raw = rawFlicker(chunks);
+    for (const Chunk& chunk : chunks) {
+        if (chunk.flythrough != flythrough) {
+            flythrough = chunk.flythrough;
             text += fmt::format(
                 "{}, {} x {} px, {}, frames {} to {}, {} rays, F_R {:.4f}\n  {:<{}}  filter        eA     bias      D_A   excess      F_e  "
                 " of raw    noise    p99  T90   ghost       ms\n",
-                flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays, summarize(part).referenceFlicker,
-                "method", width);
+                flythrough, chunk.width, chunk.height, chunk.falloff, chunk.first, chunk.end - 1, chunk.rays,
+                summarize(chunk).referenceFlicker, "method", width);
         }
-        const Summary s = summarize(part);
+        const Summary s = summarize(chunk);
         text += fmt::format("  {:<{}}  {:<8}  {:.4f}  {:+.4f}   {:.4f}  {:+.4f}   {:.4f}   {:>6}  {:.5f}  {:.4f}  {:>3}  {:.4f}  {:7.2f}\n",
-            part.label(), width, part.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(bare, part, s, "-"),
-            s.noiseMean, s.noiseP99, part.events.empty() ? "-" : std::to_string(s.t90), s.ghost, s.milliseconds);
+            chunk.label(), width, chunk.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(raw, chunk, s, "-"),
+            s.noiseMean, s.noiseP99, chunk.events.empty() ? "-" : std::to_string(s.t90), s.ghost, s.milliseconds);
     }
     return text;
 }
 
-std::string markdown(const std::vector<Part>& parts) {
+std::string markdown(const std::vector<Chunk>& chunks) {
     std::string text, flythrough;
-    const std::map<std::string, double> bare = rawFlicker(parts);
-    for (const Part& part : parts) {
-        const Summary s = summarize(part);
-        if (part.flythrough != flythrough) {
+    const std::map<std::string, double> raw = rawFlicker(chunks);
+    for (const Chunk& chunk : chunks) {
+        const Summary s = summarize(chunk);
+        if (chunk.flythrough != flythrough) {
             text += fmt::format(
                 "{}**{}**, {} x {} px, {}, frames {} to {}, {} rays; the reference's own F_R is {:.4f}.\n\n"
                 "| method | filter | eA | bias | D_A | excess | F_e | of raw | noise | T90 | ghost | ms "
                 "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-                text.empty() ? "" : "\n", part.flythrough, part.width, part.height, part.falloff, part.first, part.end - 1, part.rays,
-                s.referenceFlicker);
-            flythrough = part.flythrough;
+                text.empty() ? "" : "\n", chunk.flythrough, chunk.width, chunk.height, chunk.falloff, chunk.first, chunk.end - 1,
+                chunk.rays, s.referenceFlicker);
+            flythrough = chunk.flythrough;
         }
-        const bool lag = !part.events.empty();
-        text += fmt::format("| {} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.4f} | {} | {:.5f} | {} | {} | {:.2f} |\n", part.label(),
-            part.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(bare, part, s, ""), s.noiseMean,
+        const bool lag = !chunk.events.empty();
+        text += fmt::format("| {} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.4f} | {} | {:.5f} | {} | {} | {:.2f} |\n", chunk.label(),
+            chunk.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(raw, chunk, s, ""), s.noiseMean,
             lag ? std::to_string(s.t90) : "", lag ? fmt::format("{:.3f}", s.ghost) : "", s.milliseconds);
     }
     return text;
@@ -85,23 +85,23 @@ std::string markdown(const std::vector<Part>& parts) {
 
 namespace {
 
-Json summaryJson(const Part& part) {
-    const Summary s = summarize(part);
-    Json json{{"name", part.name()}, {"flythrough", part.flythrough}, {"method", part.method}, {"preset", part.preset},
-        {"settings", part.settings}, {"label", part.label()}, {"filter", part.filter}, {"falloff", part.falloff}, {"width", part.width},
-        {"height", part.height}, {"rays", part.rays}, {"pictures", part.pictures}, {"eA", s.eA}, {"bias", s.bias},
-        {"difference", s.difference}, {"excessFlicker", s.excess}, {"flickerOfError", s.flickerOfError},
+Json summaryJson(const Chunk& chunk) {
+    const Summary s = summarize(chunk);
+    Json json{{"name", chunk.name()}, {"flythrough", chunk.flythrough}, {"method", chunk.method}, {"preset", chunk.preset},
+        {"settings", chunk.settings}, {"label", chunk.label()}, {"filter", chunk.filter}, {"falloff", chunk.falloff},
+        {"width", chunk.width}, {"height", chunk.height}, {"rays", chunk.rays}, {"pictures", chunk.pictures}, {"eA", s.eA},
+        {"bias", s.bias}, {"difference", s.difference}, {"excessFlicker", s.excess}, {"flickerOfError", s.flickerOfError},
         {"referenceFlicker", s.referenceFlicker}, {"noiseMean", s.noiseMean}, {"noiseP99", s.noiseP99}, {"milliseconds", s.milliseconds},
         {"worstFrame", s.worst}};
-    if (!part.events.empty()) json["t90"] = s.t90, json["ghost"] = s.ghost;
+    if (!chunk.events.empty()) json["t90"] = s.t90, json["ghost"] = s.ghost;
     json["passes"] = Json::array();
-    for (const PassRow& row : part.passes) json["passes"].push_back({{"name", row.name}, {"median", row.median}, {"p95", row.p95}});
+    for (const PassRow& row : chunk.passes) json["passes"].push_back({{"name", row.name}, {"median", row.median}, {"p95", row.p95}});
     json["frames"] = Json::array();
-    for (const FrameRow& r : part.frames)
+    for (const FrameRow& r : chunk.frames)
         json["frames"].push_back({{"frame", r.frame}, {"seconds", r.time}, {"eA", r.eA}, {"difference", r.difference},
             {"excessFlicker", r.difference - r.referenceDifference}, {"flickerOfError", r.flickerOfError}});
     json["events"] = Json::array();
-    for (const EventRow& r : part.events)
+    for (const EventRow& r : chunk.events)
         json["events"].push_back({{"frame", r.frame}, {"pixels", r.pixels}, {"t90", r.t90}, {"ghost", r.ghost}});
     return json;
 }
@@ -128,28 +128,29 @@ std::string sequence(const fs::path& folder, uint32_t first) {
 
 }  // namespace
 
-void writeReport(const std::vector<Part>& parts, const std::string& device, const fs::path& out) {
-    app::writeFile(out / "frames.csv", framesCsv(parts));
-    app::writeFile(out / "events.csv", eventsCsv(parts));
-    app::writeFile(out / "static.csv", staticCsv(parts));
-    app::writeFile(out / "passes.csv", passesCsv(parts));
+void writeReport(const std::vector<Chunk>& chunks, const std::string& device, const fs::path& out) {
+    app::writeFile(out / "frames.csv", framesCsv(chunks));
+    app::writeFile(out / "events.csv", eventsCsv(chunks));
+    app::writeFile(out / "static.csv", staticCsv(chunks));
+    app::writeFile(out / "passes.csv", passesCsv(chunks));
     Json json{{"device", device}, {"parts", Json::array()}};
-    for (const Part& part : parts) json["parts"].push_back(summaryJson(part));
+    for (const Chunk& chunk : chunks) json["parts"].push_back(summaryJson(chunk));
     app::writeFile(out / "report.json", json.dump(1) + "\n");
-    app::writeFile(out / "report.md", markdown(parts));
-    app::writeFile(out / "report.html", app::page(kPageHtml, kPageCss, kPageJs, json.dump()));
+    app::writeFile(out / "report.md", markdown(chunks));
+    const app::PageSource page{"Obscura: flythroughs", app::PageSource::Pictures::files, kPageHtml, kPageCss, kPageJs};
+    app::writeFile(out / "report.html", app::page(page, json.dump()));
 }
 
-void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
+void writeVideos(const std::vector<Chunk>& chunks, const fs::path& out) {
     if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {
         fmt::print(stderr,
             "obscura-flythrough: no videos, because ffmpeg is missing; install the package ffmpeg and run the same command again\n");
         return;
     }
-    std::map<std::string, std::vector<const Part*>> groups;
-    for (const Part& part : parts)
-        if (!part.pictures.empty()) groups[part.flythrough].push_back(&part);
-    app::Progress progress("encoding", parts.size() + groups.size());
+    std::map<std::string, std::vector<const Chunk*>> groups;
+    for (const Chunk& chunk : chunks)
+        if (!chunk.pictures.empty()) groups[chunk.flythrough].push_back(&chunk);
+    app::Progress progress("encoding", chunks.size() + groups.size());
     size_t done = 0;
     for (const auto& [flythrough, list] : groups) {
         std::string inputs, scaled, stack;
@@ -161,13 +162,13 @@ void writeVideos(const std::vector<Part>& parts, const fs::path& out) {
             stack += fmt::format("[{}:v]", count++);
         };
         add(out / "frames" / (flythrough + ".reference"), list[0]->first);
-        for (const Part* part : list) {
-            progress.at(done++, part->name());
-            const fs::path folder = out / part->pictures;
+        for (const Chunk* chunk : list) {
+            progress.at(done++, chunk->name());
+            const fs::path folder = out / chunk->pictures;
             // yuv420p requires even sides.
-            if (!encode(sequence(folder, part->first), "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2'", out / (part->name() + ".mp4")))
+            if (!encode(sequence(folder, chunk->first), "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2'", out / (chunk->name() + ".mp4")))
                 fmt::print(stderr, "obscura-flythrough: ffmpeg could not encode {}\n", folder.string());
-            add(folder, part->first);
+            add(folder, chunk->first);
         }
         progress.at(done++, flythrough);
         if (count < 2) continue;

@@ -7,7 +7,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
-#include "content.h"
+#include "app/content.h"
 #include "scene/json_file.h"
 
 namespace obscura::flythrough {
@@ -93,7 +93,7 @@ std::shared_ptr<const scene::Model> unitBox() {
 std::filesystem::path pathFile(const Script& script) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(script.path, ignored)) return script.path;
-    const auto found = evaluate::findContent(script.path.string());
+    const auto found = app::findContent(script.path.string());
     if (!found) throw Complaint(fmt::format("{}: its camera path {} is not in content/", script.name, script.path.string()));
     return *found;
 }
@@ -122,10 +122,7 @@ Script recorded(const std::string& text) {
 }  // namespace
 
 std::vector<Script> scripts() {
-    const auto manifest = evaluate::findContent("flythroughs.json");
-    if (!manifest)
-        throw Complaint("flythroughs.json: not found in content/; run from the source tree, or name a content folder in OBSCURA_CONTENT");
-    const scene::JsonFile json(*manifest);
+    const scene::JsonFile json(app::expectContent("flythroughs.json"));
     const scene::JsonAt list = json.root().at("flythroughs").expectArray();
     std::vector<Script> all;
     for (size_t i = 0; i < list.size(); ++i) all.push_back(scriptOf(list.at(i)));
@@ -135,14 +132,14 @@ std::vector<Script> scripts() {
 Script findScript(const std::string& name) {
     if (name.find(".json") != std::string::npos) {
         Script script = recorded(name);
-        evaluate::findScene(script.scene);
+        app::expectScene(script.scene);
         return script;
     }
     std::vector<std::string> names;
     for (Script& script : scripts()) {
         names.push_back(script.name);
         if (script.name != name) continue;
-        evaluate::findScene(script.scene);
+        app::expectScene(script.scene);
         if (!script.camera) pathFile(script);
         return script;
     }
@@ -151,7 +148,7 @@ Script findScript(const std::string& name) {
 }
 
 Stage::Stage(const Script& script) : m_script(script) {
-    m_world.add({.model = scene::loadGltf(evaluate::findScene(script.scene).file)});
+    m_world.add({.model = scene::loadGltf(app::expectScene(script.scene).file)});
     if (m_world.triangleCount() == 0) throw Complaint(fmt::format("{}: {} contains nothing to draw", script.name, script.scene));
     if (!script.camera) m_path = scene::loadCameraPath(pathFile(script));
     if (!script.events.empty()) m_box = unitBox();

@@ -7,7 +7,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
-#include "content.h"
+#include "app/content.h"
 #include "scene/hash.h"
 
 namespace obscura::tune {
@@ -17,35 +17,35 @@ Place placeOf(const std::string& text, const char* option) {
     const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
     if (at.size() != 1 || at[0] < 0.0f)
         throw app::Complaint(fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough", option, text));
-    const evaluate::SceneFile file = evaluate::findScene(text.substr(0, mark));
-    if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.name));
-    return {file.name, at[0], text};
+    const app::SceneFile file = app::expectScene(text.substr(0, mark));
+    if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.info.name));
+    return {file.info.name, at[0], text};
 }
 
-Course::Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs,
+Course::Course(measure::Machine& machine, const std::vector<Place>& places, const std::vector<measure::FalloffChoice>& falloffs,
     const flythrough::Settings& settings) {
     for (const Place& place : places)
-        for (const evaluate::FalloffChoice& falloff : falloffs) {
+        for (const measure::FalloffChoice& falloff : falloffs) {
             flythrough::Settings with = settings;
             with.falloff = falloff;
-            const std::string script = fmt::format("{}@{:g}", evaluate::findScene(place.scene).flythrough->string(), place.at);
+            const std::string script = fmt::format("{}@{:g}", app::expectScene(place.scene).flythrough->string(), place.at);
             m_flights.push_back(std::make_unique<flythrough::Flight>(machine, flythrough::findScript(script), with));
             m_names.push_back(place.text + " " + falloff.text);
         }
 }
 
-Leg Course::fly(size_t leg, const evaluate::Candidate& candidate) {
+Leg Course::fly(size_t leg, const measure::Candidate& candidate) {
     const flythrough::Summary summary = summarize(m_flights[leg]->measure(candidate, flythrough::ownFilter(candidate)));
     return {summary.eA, summary.flickerOfError, summary.milliseconds};
 }
 
-std::string Course::keyOf(const evaluate::Candidate& candidate) const {
+std::string Course::keyOf(const measure::Candidate& candidate) const {
     scene::Hash hash;
     for (const auto& flight : m_flights) hash.add(flight->keyOf(candidate, *ao::findResolvePreset("spatial")));
     return hash.hex();
 }
 
-Score score(Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand, const std::vector<Leg>& handLegs) {
+Score score(Course& course, const measure::Candidate& candidate, const measure::Candidate& hand, const std::vector<Leg>& handLegs) {
     Score result;
     double logError = 0.0, logTime = 0.0, flicker = 0.0, handFlicker = 0.0;
     for (size_t leg = 0; leg < course.size(); ++leg) {

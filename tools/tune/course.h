@@ -21,12 +21,12 @@ struct Leg {                                             // measurements of one 
 
 class Course {
 public:
-    Course(evaluate::Machine& machine, const std::vector<Place>& places, const std::vector<evaluate::FalloffChoice>& falloffs,
+    Course(measure::Machine& machine, const std::vector<Place>& places, const std::vector<measure::FalloffChoice>& falloffs,
         const flythrough::Settings& settings);
     size_t size() const { return m_flights.size(); }
     const std::string& name(size_t leg) const { return m_names[leg]; }  // "atrium@4 quadratic:2"
-    Leg fly(size_t leg, const evaluate::Candidate& candidate);
-    std::string keyOf(const evaluate::Candidate& candidate) const;  // hash of everything that determines fly() except time
+    Leg fly(size_t leg, const measure::Candidate& candidate);
+    std::string keyOf(const measure::Candidate& candidate) const;  // hash of everything that determines fly() except time
 
 private:
     std::vector<std::unique_ptr<flythrough::Flight>> m_flights;
@@ -38,7 +38,7 @@ struct Score {
     double error = 1.0, flicker = 1.0, time = 1.0;
     std::vector<double> errors, times;  // of each leg
 };
-Score score(Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand, const std::vector<Leg>& handLegs);
+Score score(Course& course, const measure::Candidate& candidate, const measure::Candidate& hand, const std::vector<Leg>& handLegs);
 
 // The objective that a search minimises: error, with penalties for time and flicker above the limits (ratios to the hand-set preset).
 struct Limits {

@@ -14,11 +14,11 @@ int run(int argc, char** argv) {
     const auto options = parseOptions(argc, argv);
     if (!options) return 0;
     app::expectFolder(options->out);
-    evaluate::Machine machine({options->device, options->validation, options->verbose});
+    measure::Machine machine({options->device, options->validation, options->verbose});
     Course training(machine, options->training, options->falloffs, options->flight),
         heldOut(machine, options->heldOut, options->falloffs, options->flight);
     std::vector<Tuned> results;
-    for (const evaluate::Candidate& hand : options->hands) {
+    for (const measure::Candidate& hand : options->hands) {
         results.push_back(tune(*options, hand, training, heldOut));
         app::writeFile(options->out / "tune.json", jsonText(*options, results));
         app::writeFile(options->out / "tune.md", markdown(*options, results));

@@ -5,7 +5,7 @@
 
 #include "app/arguments.h"
 #include "app/complaint.h"
-#include "arguments.h"
+#include "measure/arguments.h"
 #include "space.h"
 
 namespace obscura::tune {
@@ -28,14 +28,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-tune --method all --evaluations 120 --train toasters@2,atrium@4 --held-out atrium@25,sponza@4\n"
         "  obscura-tune --method layered --time 2 --parameters slices,steps,sheet                   least error at twice the time");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    evaluate::CandidateOptions chosen;
+    measure::CandidateOptions chosen;
     std::vector<std::string> training{"toasters@2", "toasters@7", "atrium@4", "atrium@16"},
         heldOut{"toasters@11", "atrium@25", "sponza@4", "dragon@4"};
     std::vector<std::string> falloffs{"quadratic:2", "exponential:1"};
     std::string size = "160x90", out = "out/tune";
     uint32_t frames = 4;
     bool noCache = false;
-    using evaluate::takeAll;
+    using measure::takeAll;
 
     cli.option_defaults()->group("Search");
     addCandidateOptions(cli, chosen);
@@ -70,15 +70,15 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.option_defaults()->group("Output");
     cli.add_option("--out", out, "Folder of the results")->capture_default_str();
     cli.add_flag("--again", options.again, "Search again instead of resuming from the folder");
-    evaluate::addDevice(cli, options.device, options.validation, options.verbose);
+    measure::addDevice(cli, options.device, options.validation, options.verbose);
     if (!app::parse(cli, argc, argv)) return std::nullopt;
 
-    options.command = evaluate::commandOf("obscura-tune", argc, argv);
+    options.command = measure::commandOf("obscura-tune", argc, argv);
     options.out = out;
-    for (const evaluate::Candidate& hand : evaluate::candidates(chosen.methods, chosen.presets, chosen.allSets()))
+    for (const measure::Candidate& hand : measure::candidates(chosen.methods, chosen.presets, chosen.allSets()))
         if (hand.info().needs) options.hands.push_back(hand);
     if (options.hands.empty()) throw app::Complaint("--method none: has no parameters to search");
-    for (const evaluate::Candidate& hand : options.hands) Space(hand, options.parameters);
+    for (const measure::Candidate& hand : options.hands) Space(hand, options.parameters);
     for (const std::string& text : training) options.training.push_back(placeOf(text, "--train"));
     for (const std::string& text : heldOut) {
         for (const Place& place : options.training)
@@ -90,7 +90,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         }
     }
     if (options.heldOut.empty()) throw app::Complaint("--held-out: none of the places is on this machine; name one");
-    options.falloffs = evaluate::falloffs(falloffs);
+    options.falloffs = measure::falloffs(falloffs);
     options.flight.size = app::sizeOf(size);
     options.flight.length = options.flight.end = frames;
     options.flight.seed = 1;

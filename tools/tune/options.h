@@ -9,10 +9,10 @@
 namespace obscura::tune {
 
 struct Options {
-    std::vector<evaluate::Candidate> hands;  // hand-set presets: starts of the searches, to which results are compared
-    std::vector<std::string> parameters;     // empty: the default of Space
+    std::vector<measure::Candidate> hands;  // hand-set presets: starts of the searches, to which results are compared
+    std::vector<std::string> parameters;    // empty: the default of Space
     std::vector<Place> training, heldOut;
-    std::vector<evaluate::FalloffChoice> falloffs;
+    std::vector<measure::FalloffChoice> falloffs;
     flythrough::Settings flight;
     Limits limits;
     uint32_t evaluations = 80, rounds = 5, finalists = 4, seed = 1;

@@ -27,7 +27,7 @@ std::vector<std::string> namesOf(const ao::MethodInfo& info, const std::vector<s
 
 }  // namespace
 
-Space::Space(const evaluate::Candidate& start, const std::vector<std::string>& names) : m_start(start) {
+Space::Space(const measure::Candidate& start, const std::vector<std::string>& names) : m_start(start) {
     constexpr double kFactor = 4.0;
     const ao::MethodInfo& info = start.info();
     const std::vector<std::string> wanted = namesOf(info, names);
@@ -64,8 +64,8 @@ std::vector<double> Space::start() const {
     return point;
 }
 
-evaluate::Candidate Space::at(std::span<const double> point) const {
-    evaluate::Candidate candidate = m_start;
+measure::Candidate Space::at(std::span<const double> point) const {
+    measure::Candidate candidate = m_start;
     for (size_t i = 0; i < m_axes.size(); ++i) {
         const Axis& axis = m_axes[i];
         const double value = axis.value(std::clamp(point[i], 0.0, 1.0));

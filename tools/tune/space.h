@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "candidate.h"
+#include "measure/candidate.h"
 
 namespace obscura::tune {
 
@@ -14,12 +14,12 @@ public:
     // Searches the named parameters ("steps", or "METHOD.steps", which other methods ignore). None named: all numeric parameters of the
     // method's own, without shared ones (history, off-screen occluders). A start above 0 spans 1/4 to 4 times its value on a logarithmic
     // scale; others span their whole range. Throws app::Complaint.
-    Space(const evaluate::Candidate& start, const std::vector<std::string>& names);
+    Space(const measure::Candidate& start, const std::vector<std::string>& names);
 
     size_t size() const { return m_axes.size(); }
     std::vector<double> start() const;
     // The start with the values at a point, rounded for integer parameters; Candidate::settings lists those that differ from the start.
-    evaluate::Candidate at(std::span<const double> point) const;
+    measure::Candidate at(std::span<const double> point) const;
 
 private:
     struct Axis {
@@ -28,7 +28,7 @@ private:
         bool ratios;
         double value(double u) const;
     };
-    evaluate::Candidate m_start;
+    measure::Candidate m_start;
     std::vector<Axis> m_axes;
 };
 

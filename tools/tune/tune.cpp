@@ -13,7 +13,7 @@
 #include "app/files.h"
 #include "app/progress.h"
 #include "app/statistics.h"
-#include "measure.h"
+#include "measure/draw.h"
 #include "scene/hash.h"
 #include "search.h"
 #include "space.h"
@@ -21,14 +21,14 @@
 namespace obscura::tune {
 
 using Json = nlohmann::ordered_json;
-using evaluate::digits;
+using measure::digits;
 
 namespace {
 
 // A winner is real if its error is below kGain on the mean and nowhere above kLoss; kNoise: tolerance of times.
 constexpr double kGain = 0.98, kLoss = 1.02, kNoise = 1.03;
 
-std::string settingsOf(const evaluate::Candidate& candidate, const evaluate::Candidate& hand) {
+std::string settingsOf(const measure::Candidate& candidate, const measure::Candidate& hand) {
     return fmt::format("{}", fmt::join(candidate.settings.begin() + ptrdiff_t(hand.settings.size()), candidate.settings.end(), " "));
 }
 
@@ -78,14 +78,14 @@ private:
     std::vector<std::pair<std::string, Score>> m_scores;
 };
 
-std::vector<Leg> legsOf(Course& course, const evaluate::Candidate& hand) {
+std::vector<Leg> legsOf(Course& course, const measure::Candidate& hand) {
     std::vector<Leg> legs;
     for (size_t i = 0; i < course.size(); ++i) legs.push_back(course.fly(i, hand));  // warms up as well
     return legs;
 }
 
 // Errors and flicker are deterministic; times are medians over rounds.
-Score again(Log& log, const std::string& what, Course& course, const evaluate::Candidate& candidate, const evaluate::Candidate& hand,
+Score again(Log& log, const std::string& what, Course& course, const measure::Candidate& candidate, const measure::Candidate& hand,
     const std::vector<Leg>& legs, uint32_t rounds, std::vector<double>* times = nullptr) {
     Score result;
     std::vector<double> all;
@@ -112,7 +112,7 @@ bool Tuned::real(const Limits& limits) const {
     return nowhereWorse && heldOut.error <= kGain && heldOut.time <= limits.time * kNoise && heldOut.flicker <= limits.flicker * kNoise;
 }
 
-Tuned tune(const Options& options, const evaluate::Candidate& hand, Course& training, Course& heldOut) {
+Tuned tune(const Options& options, const measure::Candidate& hand, Course& training, Course& heldOut) {
     Tuned result{hand, hand, {}, {}, {}, 1.0, 1.0, {}};
     const Space space(hand, options.parameters);
     scene::Hash key;
@@ -120,11 +120,11 @@ Tuned tune(const Options& options, const evaluate::Candidate& hand, Course& trai
     Log log(options.out / (hand.fileName() + ".log.json"), key.hex(), options.again);
 
     const std::vector<Leg> legs = legsOf(training, hand);
-    std::map<std::string, evaluate::Candidate> seen;
+    std::map<std::string, measure::Candidate> seen;
     {
         app::Progress progress("searching " + hand.label(), options.evaluations);
         search(space.start(), options.evaluations, options.seed, [&](const std::vector<double>& point) -> Answer {
-            const evaluate::Candidate candidate = space.at(point);
+            const measure::Candidate candidate = space.at(point);
             const std::string settings = settingsOf(candidate, hand);
             const Score found = log.get("trial: " + settings, [&] { return score(training, candidate, hand, legs); });
             const bool fresh = seen.try_emplace(settings, candidate).second;
@@ -143,7 +143,7 @@ Tuned tune(const Options& options, const evaluate::Candidate& hand, Course& trai
     result.training.objective = objective({}, options.limits);
     for (const Trial* trial : order) {
         if (trial->settings.empty()) continue;
-        const evaluate::Candidate& candidate = seen.at(trial->settings);
+        const measure::Candidate& candidate = seen.at(trial->settings);
         const Score found = again(log, "final", training, candidate, hand, legs, options.rounds);
         const double value = objective(found, options.limits);
         if (value >= result.training.objective) continue;
@@ -169,7 +169,7 @@ Tuned tune(const Options& options, const evaluate::Candidate& hand, Course& trai
     return result;
 }
 
-std::string presetText(const evaluate::Candidate& candidate) {
+std::string presetText(const measure::Candidate& candidate) {
     std::string text;
     for (const ao::Parameter& parameter : candidate.info().parameters) {
         const float value = candidate.values[parameter.id];

@@ -12,7 +12,7 @@ struct Trial {
 };
 
 struct Tuned {
-    evaluate::Candidate hand, best;
+    measure::Candidate hand, best;
     std::vector<Trial> trials;             // in the order of the search
     Trial training;                        // the winner, measured again
     Score heldOut;                         // ratios of the winner to the hand-set preset; time: median over rounds
@@ -23,10 +23,10 @@ struct Tuned {
     bool real(const Limits& limits) const;
 };
 
-Tuned tune(const Options& options, const evaluate::Candidate& hand, Course& training, Course& heldOut);
+Tuned tune(const Options& options, const measure::Candidate& hand, Course& training, Course& heldOut);
 
 // A preset's values in the syntax of a method's source, "{"steps", 6}, {"bias", 12}": those that differ from the initial ones.
-std::string presetText(const evaluate::Candidate& candidate);
+std::string presetText(const measure::Candidate& candidate);
 std::string markdown(const Options& options, const std::vector<Tuned>& results);
 std::string jsonText(const Options& options, const std::vector<Tuned>& results);
 
