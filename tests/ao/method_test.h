@@ -128,6 +128,13 @@ inline double mean(const Picture& picture) {
     for (const float v : picture) sum += v;
     return sum / double(picture.size());
 }
+// Mean over the middle half of a visible row, where the ends of a wall that spans the frame are out of reach.
+inline double rowMean(const Room& room, const Picture& picture, uint32_t y) {
+    double sum = 0.0;
+    const uint32_t width = room.visibleWidth();
+    for (uint32_t x = width / 4; x < 3 * width / 4; ++x) sum += picture[size_t(y) * width + x];
+    return sum / double(width / 2);
+}
 inline float highest(const Picture& picture) { return *std::max_element(picture.begin(), picture.end()); }
 
 }  // namespace obscura::test

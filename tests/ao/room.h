@@ -1,4 +1,5 @@
-// Analytic depth, normals and voxels for tests: a floor and, optionally, a wall, seen from 1.6 m above the floor.
+// Analytic depth, normals and voxels for tests: a floor and, optionally, a wall, seen from 1.6 m above the floor; one plane. Eye space,
+// metres.
 #pragma once
 
 #include <algorithm>
@@ -92,31 +93,56 @@ struct Room {
         return second.size() == thickness.size() * 2 ? VkExtent2D{width, height} : VkExtent2D{(width + 1) / 2, (height + 1) / 2};
     }
     gpu::Image layer(gpu::Device& device, bool ofSecond) const {
-        const VkExtent2D size = ofSecond ? secondSize() : VkExtent2D{width, height};
-        gpu::Image result;
-        EXPECT_EQ(gpu::Image::create(device,
-                      {ofSecond ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32_SFLOAT, size.width, size.height, 1, 1,
-                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                      "layer", result),
-            gpu::Status::ok);
-        EXPECT_EQ(
-            gpu::upload(device, result, std::as_bytes(std::span(ofSecond ? second : thickness)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-            gpu::Status::ok);
-        return result;
+        return ofSecond ? uploaded(device, VK_FORMAT_R32G32_SFLOAT, secondSize(), second, "layer")
+                        : uploaded(device, VK_FORMAT_R32_SFLOAT, {width, height}, thickness, "layer");
     }
     gpu::Image image(gpu::Device& device, bool ofNormals) const {
+        return ofNormals ? uploaded(device, VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}, normals, "room")
+                         : uploaded(device, VK_FORMAT_R32_SFLOAT, {width, height}, depth, "room");
+    }
+    static gpu::Image uploaded(gpu::Device& device, VkFormat format, VkExtent2D size, const std::vector<float>& texels, const char* name) {
         gpu::Image result;
         EXPECT_EQ(gpu::Image::create(device,
-                      {ofNormals ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_SFLOAT, width, height, 1, 1,
-                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                      "room", result),
+                      {format, size.width, size.height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}, name, result),
             gpu::Status::ok);
-        EXPECT_EQ(
-            gpu::upload(device, result, std::as_bytes(std::span(ofNormals ? normals : depth)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-            gpu::Status::ok);
+        EXPECT_EQ(gpu::upload(device, result, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
         return result;
     }
 };
+
+// Direction of the view ray through (x, y) px, guard band included: metres right and up per metre of depth.
+inline std::array<float, 2> rayAt(const Room& room, float x, float y) {
+    return {(x / float(room.width) * 2.0f - 1.0f) / room.projection[0], (y / float(room.height) * 2.0f - 1.0f) / room.projection[5]};
+}
+
+// The plane of the points p with p . normal / |normal| = -1.6; sky elsewhere, and where it is farther than `farthest`.
+inline Room plane(const std::array<float, 3>& normal, float farthest = 200.0f) {
+    Room room;
+    room.build();
+    const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (uint32_t y = 0; y < room.height; ++y)
+        for (uint32_t x = 0; x < room.width; ++x) {
+            const size_t i = size_t(y) * room.width + x;
+            const auto [right, up] = rayAt(room, float(x) + 0.5f, float(y) + 0.5f);
+            const float facing = (normal[0] * right + normal[1] * up - normal[2]) / length;
+            const float z = facing < 0.0f ? -1.6f / facing : 1e4f;
+            room.depth[i] = z < farthest ? z : 1e4f;
+            for (size_t c = 0; c < 3; ++c) room.normals[4 * i + c] = normal[c] / length;
+        }
+    return room;
+}
+
+// A floor at y = `floor` and a wall that faces the camera at z = `wall`.
+inline Room crease(uint32_t width = 320, uint32_t height = 240, uint32_t guard = 32, float floor = -1.0f, float wall = -3.0f) {
+    Room room;
+    room.width = width;
+    room.height = height;
+    room.guard = guard;
+    room.floor = floor;
+    room.wall = wall;
+    room.build();
+    return room;
+}
 
 inline float halfToFloat(uint16_t h) {
     const int exponent = (h >> 10) & 31, mantissa = h & 1023;

@@ -1,7 +1,7 @@
-// Fixture of the baseline methods: frames of half-spaces, and the exact values beside a wall.
+// Fixture of the baseline methods: the exact values beside a wall.
 #pragma once
 
-#include "layered/solids.h"
+#include "ao/solids.h"
 
 namespace obscura::test {
 
@@ -9,18 +9,6 @@ class BaselineTest : public MethodTest {
 protected:
     using MethodTest::MethodTest;
     using Kind = Solid::Kind;
-
-    static Room roomOf(const std::vector<Solid>& solids) {
-        Room room = frameOf(solids, 200, 120, 20);
-        room.thickness.clear();
-        room.second.clear();
-        return room;
-    }
-    static Solid floor() { return {Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}; }
-    static Solid wall() { return {Kind::plane, {0, 0, -5}, {0, 0, 1}}; }
-    static std::vector<std::vector<Solid>> convex() {
-        return {{floor()}, {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}}, {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}}};
-    }
 
     // Rows of the floor in front of the wall: distance to it, metres, and mean obscurance of the middle of the row.
     struct Row {

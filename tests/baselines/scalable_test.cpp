@@ -11,14 +11,14 @@ protected:
 
 // Only level 0 is exact. Coarser levels keep one of four depths; the bias has to hide the error.
 TEST_F(Scalable, planesAreOpen) {
-    for (const auto& world : convex()) EXPECT_LT(mean(run(roomOf(world), values({}), "quadratic:1")), 0.01);
-    const Room facing = roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}});
+    for (const auto& world : planeWorlds()) EXPECT_LT(mean(run(depthFrameOf(world), values({}), "quadratic:1")), 0.01);
+    const Room facing = depthFrameOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}});
     EXPECT_EQ(highest(run(facing, values({}), "quadratic:1")), 0.0f);
 }
 
 // The published estimator, integrated over the disc: samples lie at (i + 0.5)/s of the screen-space radius, evenly in angle.
 TEST_F(Scalable, equalsThePublishedSumBesideAWall) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     const double radius = 2.0 / 3.0 * 35.0 / 16.0, bias = 0.01;
     const Picture picture = run(room, values({{"samples", 100}, {"turns", 27}, {"denoise", 0}, {"intensity", 0.5f}}), "quadratic:1");
     int rows = 0;
@@ -45,7 +45,7 @@ TEST_F(Scalable, equalsThePublishedSumBesideAWall) {
 }
 
 TEST_F(Scalable, intensityScalesObscurance) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     const double once = mean(run(room, values({{"intensity", 0.1f}, {"denoise", 0}}), "quadratic:1")),
                  twice = mean(run(room, values({{"intensity", 0.2f}, {"denoise", 0}}), "quadratic:1"));
     EXPECT_NEAR(twice, 2.0 * once, 0.03 * once);
@@ -53,8 +53,8 @@ TEST_F(Scalable, intensityScalesObscurance) {
 
 // The bilateral blur does not mix depths: a sheet 1 m in front of the wall stays open.
 TEST_F(Scalable, blurStopsAtDepthEdges) {
-    const Room room =
-        roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::box, {0, 0, -3}, {0.8f, 3, 0.05f}}});
+    const Room room = depthFrameOf(
+        {{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::box, {0, 0, -3}, {0.8f, 3, 0.05f}}});
     const Picture raw = run(room, values({{"denoise", 0}}), "quadratic:1"), blurred = run(room, values({}), "quadratic:1");
     for (uint32_t x = 0; x < room.visibleWidth(); ++x)
         if (room.depth[size_t(40) * room.width + x + room.guard] < 3.5f && raw[size_t(20) * room.visibleWidth() + x] == 0.0f) {

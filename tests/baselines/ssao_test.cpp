@@ -10,13 +10,13 @@ protected:
 };
 
 TEST_F(Ssao, planesAreOpen) {
-    const Room wall = roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}});
+    const Room wall = depthFrameOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}});
     for (const char* preset : {"default", "tuned"}) EXPECT_EQ(highest(run(wall, values({}, preset), "quadratic:1")), 0.0f) << preset;
 }
 
 // If directions are cosine-weighted and a fraction rho(d) of the sample points lies beyond distance d, the estimator integrates obscurance.
 TEST_F(Ssao, tunedEqualsObscuranceBesideAWall) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     ao::Falloff rho;
     ASSERT_TRUE(ao::parseFalloff("linear:1", rho));
     const std::vector<Row> rows = rowsBeforeWall(
@@ -29,7 +29,7 @@ TEST_F(Ssao, tunedEqualsObscuranceBesideAWall) {
 
 // Published sample points: uniform directions, at u mix(0.1, 1, v^2) of five times the falloff's mean length.
 TEST_F(Ssao, defaultEqualsThePublishedIntegralBesideAWall) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     const double radius = 5.0 * 0.5;  // linear:1 has a mean of 0.5 m
     const auto beyond = [&](double d) {
         double fraction = 0.0;
@@ -50,15 +50,15 @@ TEST_F(Ssao, defaultEqualsThePublishedIntegralBesideAWall) {
 // An occluder far in front of the wall is faded out by the smoothstep range check.
 TEST_F(Ssao, rangeCheckFadesFarOccluders) {
     const auto beside = [&](float z) {
-        return mean(
-            run(roomOf({{Kind::plane, {0, 0, -20}, {0, 0, 1}}, {Kind::box, {0, 0, z}, {0.1f * -z, 3, 0.05f}}}), values({}), "quadratic:1"));
+        return mean(run(depthFrameOf({{Kind::plane, {0, 0, -20}, {0, 0, 1}}, {Kind::box, {0, 0, z}, {0.1f * -z, 3, 0.05f}}}), values({}),
+            "quadratic:1"));
     };
     EXPECT_LT(beside(-3.0f), 0.5 * beside(-19.0f));
 }
 
 // Any 4x4 pixels contain all 16 rotations, so their mean has no tile pattern.
 TEST_F(Ssao, blurRemovesTheTilePattern) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     const auto roughness = [&](const Picture& picture) {
         double sum = 0.0;
         for (uint32_t y = 50; y < 60; ++y)

@@ -10,15 +10,16 @@ protected:
 };
 
 TEST_F(VisibilityBitmask, equalWeightSectorsLeavePlanesOpen) {
-    for (const auto& world : convex()) {
-        EXPECT_LT(highest(run(roomOf(world), values({{"mip_offset", 30}}, "tuned"), "ramp:0.385:1")), 0.5f / 255.0f);
-        EXPECT_LT(mean(run(roomOf(world), values({}, "tuned"), "ramp:0.385:1")), 0.005);  // coarser depths deviate slightly from the plane
+    for (const auto& world : planeWorlds()) {
+        EXPECT_LT(highest(run(depthFrameOf(world), values({{"mip_offset", 30}}, "tuned"), "ramp:0.385:1")), 0.5f / 255.0f);
+        EXPECT_LT(
+            mean(run(depthFrameOf(world), values({}, "tuned"), "ramp:0.385:1")), 0.005);  // coarser depths deviate slightly from the plane
     }
 }
 
 // With infinite thickness, sectors of equal cosine weight integrate obscurance.
 TEST_F(VisibilityBitmask, equalWeightSectorsEqualObscuranceBesideAWall) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     ao::Falloff rho;
     ASSERT_TRUE(ao::parseFalloff("ramp:0.385:1", rho));
     const Changes fine = {{"slices", 16}, {"steps", 32}, {"mip_offset", 30}, {"thickness", 1000}, {"denoise", 0}};
@@ -32,7 +33,7 @@ TEST_F(VisibilityBitmask, equalWeightSectorsEqualObscuranceBesideAWall) {
 // As published, the covered fraction of each slice's angle, integrated. Outside the image its edge texels repeat, so the wall is infinite.
 // A sector that is touched counts as covered, so the floor covers the outermost sector on either side: 2/32 too much.
 TEST_F(VisibilityBitmask, equalAngleSectorsEqualThePublishedIntegralBesideAWall) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     const std::vector<Row> rows = rowsBeforeWall(
         room, run(room, values({{"slices", 16}, {"steps", 32}, {"mip_offset", 30}, {"thickness", 1000}, {"denoise", 0}, {"axis", 1}}),
                   "constant:50"));
@@ -58,7 +59,7 @@ TEST_F(VisibilityBitmask, equalAngleSectorsEqualThePublishedIntegralBesideAWall)
 
 // With a small thickness light passes behind a post; with 1000 m it does not.
 TEST_F(VisibilityBitmask, lightPassesBehindThinOccluders) {
-    const Room room = roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::box, {0, 0, -4}, {0.2f, 3, 0.1f}}});
+    const Room room = depthFrameOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::box, {0, 0, -4}, {0.2f, 3, 0.1f}}});
     for (const char* preset : {"default", "tuned"}) {
         const double thin = mean(run(room, values({{"thickness", 0.1f}}, preset), "constant:4")),
                      thick = mean(run(room, values({{"thickness", 1000}}, preset), "constant:4"));

@@ -10,20 +10,20 @@ protected:
 };
 
 TEST_F(Volumetric, planesAreOpen) {  // the whole sphere is tested only facing the camera: its value depends on the lines
-    for (const auto& world : convex())
+    for (const auto& world : planeWorlds())
         for (const float solid : {1.0f, 2.0f}) {
-            const Picture picture = run(roomOf(world), values({{"solid", solid}}), "quadratic:1");
+            const Picture picture = run(depthFrameOf(world), values({{"solid", solid}}), "quadratic:1");
             EXPECT_LT(mean(picture), 1e-3) << solid;
             EXPECT_LT(highest(picture), 0.05f) << solid;  // where a pixel is wider than the sphere
         }
-    const Room facing = roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}});
+    const Room facing = depthFrameOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}});
     EXPECT_LT(mean(run(facing, values({{"solid", 0}, {"lines", 64}}), "quadratic:1")), 0.01);
 }
 
 // A wall at h radii from the centre cuts a cap of (2 - 3 h + h^3) / 4 of the sphere's volume. Half of the cap is above the floor, so the
 // hemisphere loses the same fraction; the sphere that touches the floor as well.
 TEST_F(Volumetric, equalsTheSphericalCapBesideAWall) {
-    const Room room = roomOf({floor(), wall()});
+    const Room room = depthFrameOf(floorAndWall());
     for (const float solid : {1.0f, 2.0f}) {
         const double radius = 2.0 / 3.0 / (solid == 1.0f ? 0.75 : 1.2);  // quadratic:1 has a mean of 2/3 m
         const std::vector<Row> rows =
@@ -37,7 +37,7 @@ TEST_F(Volumetric, equalsTheSphericalCapBesideAWall) {
 }
 
 TEST_F(Volumetric, lightPassesBehindThinOccluders) {
-    const Room room = roomOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::box, {0, 0, -4}, {0.2f, 3, 0.1f}}});
+    const Room room = depthFrameOf({{Kind::plane, {0, 0, -6}, {0, 0, 1}}, {Kind::box, {0, 0, -4}, {0.2f, 3, 0.1f}}});
     EXPECT_LT(mean(run(room, values({{"thickness", 0.1f}}), "constant:3")), 0.5 * mean(run(room, values({}), "constant:3")));
 }
 

@@ -1,6 +1,6 @@
 // Depth layers: solids in front of a background, against ray-traced obscurance.
+#include "ao/solids.h"
 #include "far_field/fixture.h"
-#include "layered/solids.h"
 
 namespace obscura::test {
 namespace {

@@ -15,14 +15,6 @@ double exactAtWall(double a) {
     return sum * 2.0 / 3.14159265358979 / n;
 }
 
-// Mean over the middle of a row, where the ends of the wall are out of reach.
-double row(const Room& room, const Picture& picture, uint32_t y) {
-    double sum = 0.0;
-    const uint32_t width = room.visibleWidth();
-    for (uint32_t x = width / 4; x < 3 * width / 4; ++x) sum += picture[size_t(y) * width + x];
-    return sum / double(width / 2);
-}
-
 TEST_F(FarFieldTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
     for (const auto& [a, exact] : {std::pair{0.1, 0.34128}, {0.5, 0.13836}, {1.0, 0.05758}}) EXPECT_NEAR(exactAtWall(a), exact, 1e-4);
     const Room room = crease();  // the image cuts off the ends of the wall, 0.01; interleaving is less accurate at the crease
@@ -37,7 +29,7 @@ TEST_F(FarFieldTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
             const size_t i = size_t(y + room.guard) * room.width + room.width / 2;
             const double a = -room.wall - room.depth[i];
             if (room.normals[4 * i + 1] < 0.5f || a < 0.06 || a > 1.5) continue;
-            EXPECT_NEAR(row(room, picture, y), exactAtWall(a), tolerance) << preset << " " << a << " m from the wall";
+            EXPECT_NEAR(rowMean(room, picture, y), exactAtWall(a), tolerance) << preset << " " << a << " m from the wall";
             ++rows;
         }
         EXPECT_GT(rows, 20);

@@ -1,39 +1,30 @@
 // The preset `tuned`, which sums arcs of single samples: planes and convex solids are open, and the value beside a wall is exact.
-#include "layered/solids.h"
+#include "ao/solids.h"
 
 namespace obscura::test {
 namespace {
 
-using Kind = Solid::Kind;
-
 class Terms : public MethodTest {
 protected:
     Terms() : MethodTest("gtao") {}
-    static Room roomOf(const std::vector<Solid>& solids) {
-        Room room = frameOf(solids, 200, 120, 20);
-        room.thickness.clear();
-        room.second.clear();
-        return room;
-    }
 };
 
 TEST_F(Terms, arcsLeaveConvexSolidsOpen) {
-    const std::vector<std::vector<Solid>> worlds = {{{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}},
-        {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}}, {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
-        {{Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}}, {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
+    const auto worlds = convexWorlds();
     for (size_t i = 0; i < worlds.size(); ++i) {
-        EXPECT_LT(highest(run(roomOf(worlds[i]), values({{"mip_offset", 30}}, "tuned"), "ramp:0.385:1")), 0.5f / 255.0f) << "world " << i;
-        EXPECT_LT(mean(run(roomOf(worlds[i]), values({}, "tuned"), "ramp:0.385:1")), 0.001)
+        EXPECT_LT(highest(run(depthFrameOf(worlds[i]), values({{"mip_offset", 30}}, "tuned"), "ramp:0.385:1")), 0.5f / 255.0f)
+            << "world " << i;
+        EXPECT_LT(mean(run(depthFrameOf(worlds[i]), values({}, "tuned"), "ramp:0.385:1")), 0.001)
             << "world " << i;  // coarser depths deviate slightly from the plane
     }
     // The published horizon does obscure a bare floor: the nearest texels raise it.
-    EXPECT_GT(mean(run(roomOf(worlds[0]), values({}), "ramp:0.385:1")), 0.001);
+    EXPECT_GT(mean(run(depthFrameOf(worlds[0]), values({}), "ramp:0.385:1")), 0.001);
 }
 
 // A floor before a wall against ray-traced obscurance: slices around the view ray cover the hemisphere.
 TEST_F(Terms, arcsMatchTheReferenceBesideAWall) {
-    const std::vector<Solid> world = {{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}};
-    const Room room = roomOf(world);
+    const std::vector<Solid> world = floorAndWall();
+    const Room room = depthFrameOf(world);
     ao::Falloff rho;
     ASSERT_TRUE(ao::parseFalloff("ramp:0.385:1", rho));
     const Picture fine =
@@ -55,7 +46,7 @@ TEST_F(Terms, arcsMatchTheReferenceBesideAWall) {
 }
 
 TEST_F(Terms, largerRadiusScaleDarkens) {
-    const Room room = roomOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}});
+    const Room room = depthFrameOf(floorAndWall());
     for (const char* preset : {"default", "tuned"}) {
         const double once = mean(run(room, values({{"radius_scale", 1}}, preset), "quadratic:1")),
                      twice = mean(run(room, values({{"radius_scale", 2}}, preset), "quadratic:1"));

@@ -1,6 +1,6 @@
 // The published presets against the CPU transcription: mean difference below 0.25/255.
+#include "ao/solids.h"
 #include "gtao/published.h"
-#include "layered/solids.h"
 
 namespace obscura::test {
 namespace {

@@ -6,25 +6,6 @@
 namespace obscura::test {
 namespace {
 
-// The plane n.x = -1.6, sky elsewhere.
-Room plane(const std::array<float, 3>& normal) {
-    Room room;
-    room.build();
-    const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    for (uint32_t y = 0; y < room.height; ++y) {
-        for (uint32_t x = 0; x < room.width; ++x) {
-            const size_t i = size_t(y) * room.width + x;
-            const float right = ((float(x) + 0.5f) / float(room.width) * 2.0f - 1.0f) / room.projection[0];
-            const float up = ((float(y) + 0.5f) / float(room.height) * 2.0f - 1.0f) / room.projection[5];
-            const float facing = (normal[0] * right + normal[1] * up - normal[2]) / length;
-            const float z = facing < 0.0f ? -1.6f / facing : 1e4f;
-            room.depth[i] = z < 200.0f ? z : 1e4f;
-            for (int c = 0; c < 3; ++c) room.normals[4 * i + c] = normal[c] / length;
-        }
-    }
-    return room;
-}
-
 class Planes : public HorizonSplitTest, public testing::WithParamInterface<std::array<float, 3>> {};
 INSTANTIATE_TEST_SUITE_P(Terms, Planes, testing::Values(std::array{0.0f, 1.0f, 0.0f}, std::array{0.5f, 1.0f, 0.05f}));
 

@@ -21,25 +21,6 @@ double exactAtWall(double a, double reach) {
     return sum / (2.0 * n * n);
 }
 
-Room crease() {
-    Room room;
-    room.width = 320;
-    room.height = 240;
-    room.guard = 32;
-    room.floor = -1.0f;
-    room.wall = -3.0f;
-    room.build();
-    return room;
-}
-
-// Mean over the middle of a row, where the ends of the wall are out of reach.
-double row(const Room& room, const Picture& picture, uint32_t y) {
-    double sum = 0.0;
-    const uint32_t width = room.visibleWidth();
-    for (uint32_t x = width / 4; x < 3 * width / 4; ++x) sum += picture[size_t(y) * width + x];
-    return sum / double(width / 2);
-}
-
 TEST_F(HorizonSplitTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
     // Check of the integral against independently computed values.
     for (const auto& [a, exact] : {std::pair{0.10, 0.3556}, {0.25, 0.2361}, {0.50, 0.1178}, {1.0, 0.0174}})
@@ -55,7 +36,7 @@ TEST_F(HorizonSplitTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
             const size_t i = size_t(y + room.guard) * room.width + room.width / 2;
             const double a = -room.wall - room.depth[i];
             if (room.normals[4 * i + 1] < 0.5f || a < 0.06 || a > 1.8) continue;  // nearer than 0.06 m a pixel is larger than the distance
-            const double now = row(room, picture, y);
+            const double now = rowMean(room, picture, y);
             EXPECT_NEAR(now, exactAtWall(a, 1.5), tolerance) << a << " m from the wall";
             EXPECT_GT(now, before - 0.004) << a << " m from the wall";
             before = now;

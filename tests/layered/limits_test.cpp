@@ -1,5 +1,5 @@
 // Properties of `layered` that do not depend on sampling: convex solids are open, values are finite, results are deterministic.
-#include "layered/solids.h"
+#include "layered/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -7,9 +7,7 @@ namespace {
 using Kind = Solid::Kind;
 
 TEST_F(LayeredTest, convexSolidsAreExactlyOpen) {
-    const std::vector<std::vector<Solid>> worlds = {{{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}},
-        {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}}, {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}},
-        {{Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}}, {{Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}}};
+    const auto worlds = convexWorlds();
     for (size_t i = 0; i < worlds.size(); ++i) {
         const Room room = frameOf(worlds[i], 200, 120, 20);
         for (const auto& changes : {Changes{{"steps", 4}}, Changes{{"slices", 3}}, Changes{{"depth_layers", 0}, {"thickness", 1000}}})
@@ -36,7 +34,7 @@ TEST_F(LayeredTest, slicesCoverTheHemisphere) {
 
 TEST_F(LayeredTest, interleavingShowsNoTile) {
     // Along a row of the floor the distance to the wall is constant, so the interleaving tile must not show.
-    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 384, 216, 32);
+    const Room room = frameOf(floorAndWall(), 384, 216, 32);
     for (const float side : {1.0f, 2.0f, 3.0f}) {
         const Picture picture = run(room, values({{"interleave", side}, {"slices", 16}}), "ramp:0.385:1");
         double change = 0.0, dark = 0.0;
@@ -69,8 +67,7 @@ TEST_F(LayeredTest, everySizeAndSkyGiveValidObscurance) {
 
 TEST_F(LayeredTest, reducedMapMatchesFullResolution) {
     // Along a row of the floor the distance to the wall is constant: rows must be even, without steps between pixels of the map.
-    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 383, 215,
-        32);  // the last pixels of the map cover fewer pixels
+    const Room room = frameOf(floorAndWall(), 383, 215, 32);  // the last pixels of the map cover fewer pixels
     const Picture all = run(room, values({{"slices", 16}}), "linear:3");
     for (const float map : {2.0f, 3.0f}) {
         const Picture some = run(room, values({{"slices", 16}, {"map", map}}), "linear:3");

@@ -1,5 +1,5 @@
 // `layered` against exact obscurance: beside an infinite wall, behind a pillar, behind a board that hides another.
-#include "layered/solids.h"
+#include "layered/fixture.h"
 
 namespace obscura::test {
 namespace {
@@ -25,7 +25,7 @@ TEST_F(LayeredTest, infiniteWallMatchesTheExactValueAtEveryDistance) {
     // Check of the integral against independently computed values.
     for (const auto& [a, exact] : {std::pair{0.10, 0.4017}, {0.25, 0.2610}, {0.50, 0.0845}, {0.75, 0.0133}})
         EXPECT_NEAR(exactAtWall(a), exact, 5e-4);
-    const Room room = frameOf({{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Kind::plane, {0, 0, -5}, {0, 0, 1}}}, 384, 216, 32);
+    const Room room = frameOf(floorAndWall(), 384, 216, 32);
     for (const auto& [changes, preset, tolerance] :
         {std::tuple{Changes{{"steps", 4}}, "default", 0.012}, {Changes{}, "default", 0.011}, {Changes{}, "reference", 0.004}}) {
         const Picture picture = run(room, values(changes, preset), kRamp);

@@ -35,38 +35,6 @@ inline Room wall(float depth, const std::array<float, 3>& normal = {0, 0, 1}) {
 }
 
 // A floor 1.5 m below the camera and a wall 8 m away.
-inline Room hall() {
-    Room room;
-    room.width = 384;
-    room.height = 216;
-    room.guard = 18;
-    room.floor = -1.5f;
-    room.wall = -8.0f;
-    room.build();
-    return room;
-}
-
-// Direction of the view ray through (x, y) px: metres right and up per metre of depth.
-inline std::array<float, 2> rayAt(const Room& room, float x, float y) {
-    return {(x / float(room.width) * 2.0f - 1.0f) / room.projection[0], (y / float(room.height) * 2.0f - 1.0f) / room.projection[5]};
-}
-
-// The plane n.x = -1.6, sky elsewhere.
-inline Room plane(std::array<float, 3> n) {
-    Room room;
-    room.build();
-    const float length = std::hypot(n[0], n[1], n[2]);
-    for (float& c : n) c /= length;
-    for (uint32_t y = 0; y < room.height; ++y)
-        for (uint32_t x = 0; x < room.width; ++x) {
-            const size_t i = size_t(y) * room.width + x;
-            const auto [right, up] = rayAt(room, float(x) + 0.5f, float(y) + 0.5f);
-            const float facing = n[0] * right + n[1] * up - n[2];
-            const float z = facing < 0.0f ? -1.6f / facing : 1e4f;
-            room.depth[i] = z < 200.0f ? z : 1e4f;
-            for (size_t c = 0; c < 3; ++c) room.normals[4 * i + c] = n[c];
-        }
-    return room;
-}
+inline Room hall() { return crease(384, 216, 18, -1.5f, -8.0f); }
 
 }  // namespace obscura::test

@@ -8,13 +8,7 @@ namespace {
 
 // Floor 1.5 m below the camera, wall 8 m ahead, 320 x 180 px visible.
 Room hall() {
-    Room room;
-    room.width = 384;
-    room.height = 216;
-    room.floor = -1.5f;
-    room.wall = -8.0f;
-    room.guard = 18;
-    room.build();
+    Room room = crease(384, 216, 18, -1.5f, -8.0f);
     // The guard band is 32 px to the left and right; that of Room is equal on all sides.
     const float f = 1.0f / std::tan(0.5236f);
     room.projection[5] = -f * 180.0f / 216.0f;

@@ -72,8 +72,8 @@ inline Room frameOf(const std::vector<Solid>& solids, uint32_t width, uint32_t h
     room.second.assign(half ? size_t((width + 1) / 2) * ((height + 1) / 2) * 2 : room.depth.size() * 2, 0.0f);
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
-            const glm::vec3 d(((float(x) + 0.5f) / float(width) * 2.0f - 1.0f) / room.projection[0],
-                ((float(y) + 0.5f) / float(height) * 2.0f - 1.0f) / room.projection[5], -1.0f);
+            const auto [right, up] = rayAt(room, float(x) + 0.5f, float(y) + 0.5f);
+            const glm::vec3 d(right, up, -1.0f);
             std::vector<Hit> hits;
             Hit hit;
             for (const Solid& solid : solids)
@@ -92,6 +92,32 @@ inline Room frameOf(const std::vector<Solid>& solids, uint32_t width, uint32_t h
             room.second[2 * j + 1] = lengthOf(*next);
         }
     return room;
+}
+
+// The same without depth layers, 160 x 80 px visible.
+inline Room depthFrameOf(const std::vector<Solid>& solids) {
+    Room room = frameOf(solids, 200, 120, 20);
+    room.thickness.clear();
+    room.second.clear();
+    return room;
+}
+
+// A floor 1.5 m below the camera and a wall that faces it, 5 m away.
+inline std::vector<Solid> floorAndWall() {
+    return {{Solid::Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}, {Solid::Kind::plane, {0, 0, -5}, {0, 0, 1}}};
+}
+
+// Worlds of one convex solid, which are open everywhere: planes alone, or also a sphere and a box.
+inline std::vector<std::vector<Solid>> planeWorlds() {
+    using Kind = Solid::Kind;
+    return {{{Kind::plane, {0, -1.5f, 0}, {0, 1, 0}}}, {{Kind::plane, {0, -1.5f, 0}, {0.5f, 1, 0.05f}}},
+        {{Kind::plane, {0, 0, -6}, {0.5f, 0.3f, 1}}}};
+}
+inline std::vector<std::vector<Solid>> convexWorlds() {
+    std::vector<std::vector<Solid>> worlds = planeWorlds();
+    worlds.push_back({{Solid::Kind::sphere, {0.3f, 0.2f, -4}, {1.2f, 0, 0}}});
+    worlds.push_back({{Solid::Kind::box, {0.4f, -0.7f, -4}, {0.8f, 0.5f, 0.6f}}});
+    return worlds;
 }
 
 // Obscurance at a point, by cosine-weighted rays.
@@ -114,14 +140,8 @@ inline double worldObscurance(const std::vector<Solid>& solids, const glm::vec3&
 }
 
 inline glm::vec3 pointAt(const Room& room, uint32_t x, uint32_t y) {  // guard band included
-    const float z = room.depth[size_t(y) * room.width + x];
-    return z * glm::vec3(((float(x) + 0.5f) / float(room.width) * 2.0f - 1.0f) / room.projection[0],
-                   ((float(y) + 0.5f) / float(room.height) * 2.0f - 1.0f) / room.projection[5], -1.0f);
+    const auto [right, up] = rayAt(room, float(x) + 0.5f, float(y) + 0.5f);
+    return room.depth[size_t(y) * room.width + x] * glm::vec3(right, up, -1.0f);
 }
-
-class LayeredTest : public MethodTest {
-protected:
-    LayeredTest() : MethodTest("layered") {}
-};
 
 }  // namespace obscura::test
