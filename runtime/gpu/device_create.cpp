@@ -275,14 +275,19 @@ bool Device::createDevice(const DeviceOptions& options, std::string& error) {
     chooseFeatures(has, wants);
     wants.core.pNext = &wants.v13;
 
+    uint32_t count = 0;
+    m_vk.EnumerateDeviceExtensionProperties(m_physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> offered(count);
+    m_vk.EnumerateDeviceExtensionProperties(m_physical, nullptr, &count, offered.data());
     std::vector<const char*> extensions;
-    if (options.presentation) {
-        uint32_t count = 0;
-        m_vk.EnumerateDeviceExtensionProperties(m_physical, nullptr, &count, nullptr);
-        std::vector<VkExtensionProperties> offered(count);
-        m_vk.EnumerateDeviceExtensionProperties(m_physical, nullptr, &count, offered.data());
-        m_caps.presentation = offers(offered, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-        if (m_caps.presentation) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    m_caps.presentation = options.presentation && offers(offered, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (m_caps.presentation) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    m_caps.statistics = options.statistics && offers(offered, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR, nullptr, VK_TRUE};
+    if (m_caps.statistics) {
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        wants.v13.pNext = &statistics;
     }
 
     const float priority = 1.0f;

@@ -14,6 +14,10 @@ namespace {
 // The minimum that every Vulkan device supports.
 constexpr uint32_t kMaxPushConstantBytes = 128;
 
+// With DeviceOptions::statistics, for pipeline_statistics.h.
+constexpr VkPipelineCreateFlags kCaptureFlags =
+    VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR | VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
+
 VkDescriptorType descriptorType(BindingKind kind) {
     switch (kind) {
         case BindingKind::sampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
@@ -93,6 +97,7 @@ VkResult createGraphicsPipeline(const Device& device, const std::vector<VkPipeli
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
+    info.flags = device.caps().statistics ? kCaptureFlags : 0;
     info.layout = layout;
     return device.vk().CreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, device.allocator(), &pipeline);
 }
@@ -132,7 +137,7 @@ void Program::swap(Program& other) noexcept {
 }
 
 Status Program::compute(
-    Device& device, const ShaderLibrary& shaders, std::string_view name, std::initializer_list<Constant> constants, Program& out) {
+    Device& device, const ShaderLibrary& shaders, std::string_view name, std::vector<Constant> constants, Program& out) {
     out = Program();
     Program made;
     made.m_device = &device;
@@ -146,7 +151,7 @@ Status Program::compute(
 }
 
 Status Program::graphics(Device& device, const ShaderLibrary& shaders, std::string_view vertex, std::string_view fragment,
-    const GraphicsState& state, std::initializer_list<Constant> constants, Program& out) {
+    const GraphicsState& state, std::vector<Constant> constants, Program& out) {
     out = Program();
     Program made;
     made.m_device = &device;
@@ -287,6 +292,7 @@ Status Program::build() {
             VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
             create.stage = stages.front();
             create.layout = m_layout;
+            create.flags = m_device->caps().statistics ? kCaptureFlags : 0;
             result = vk.CreateComputePipelines(m_device->handle(), m_device->pipelineCache(), 1, &create, m_device->allocator(), &pipeline);
         } else {
             result = createGraphicsPipeline(*m_device, stages, m_state, m_layout, pipeline);

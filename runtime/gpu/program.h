@@ -3,7 +3,6 @@
 // compiles keeps the last good pipeline.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -41,9 +40,9 @@ public:
     ~Program();
 
     static Status compute(
-        Device& device, const ShaderLibrary& shaders, std::string_view name, std::initializer_list<Constant> constants, Program& out);
+        Device& device, const ShaderLibrary& shaders, std::string_view name, std::vector<Constant> constants, Program& out);
     static Status graphics(Device& device, const ShaderLibrary& shaders, std::string_view vertex, std::string_view fragment,
-        const GraphicsState& state, std::initializer_list<Constant> constants, Program& out);
+        const GraphicsState& state, std::vector<Constant> constants, Program& out);
 
     explicit operator bool() const { return m_pipeline != VK_NULL_HANDLE; }
     // Rebuilds after a hot reload when needed (old handles are released, deferred). Cheap otherwise.
@@ -60,6 +59,8 @@ public:
     const std::array<uint32_t, 3>& workgroup() const { return m_workgroup; }
     uint32_t pushConstantBytes() const { return m_pushConstantBytes; }
     const std::string& name() const { return m_name; }
+    const std::string& shader() const { return m_vertex; }  // name of the compute or vertex shader
+    const std::vector<Constant>& specialization() const { return m_constants; }
 
 private:
     void swap(Program& other) noexcept;

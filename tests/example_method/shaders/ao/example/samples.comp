@@ -35,5 +35,5 @@ void main() {
         float distance = max(length(d), 1e-6);
         blocked += falloff(constants.falloff, distance) * max(dot(d, n) / distance - constants.bias, 0.0);
     }
-    imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * blocked / float(constants.samples), 0.0, 1.0)));
+    imageStore(visibility, p, vec4(clamp(1.0 - 3.0 * blocked / float(constants.samples), 0.0, 1.0)));
 }

@@ -1,5 +1,5 @@
 // The smallest method: obscurance is the mean over samples q around the pixel of
-//     2 rho(|q-p|) max(dot(n, q-p) / |q-p| - bias, 0),
+//     3 rho(|q-p|) max(dot(n, q-p) / |q-p| - bias, 0),
 // with samples on a spiral in one of 16 rotations over a 4x4 tile.
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: samples, blur.
 #include <iterator>
