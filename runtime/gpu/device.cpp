@@ -124,7 +124,7 @@ Status Device::finish() {
 Device::~Device() {
     if (m_device) {
         // An adopting host has waited already, and may be using its queues on other threads at this moment.
-        if (m_owned) m_vk.DeviceWaitIdle(m_device);
+        if (m_owned && !m_caps.compilerOnly) m_vk.DeviceWaitIdle(m_device);
         destroyReleased(~0ull);
         for (const CachedSampler& cached : m_samplers) m_vk.DestroySampler(m_device, cached.sampler, m_allocator);
         if (m_pipelineCache) writePipelineCache();

@@ -27,6 +27,7 @@ struct DeviceOptions {
     bool synchronization = false;                 // synchronization validation as well
     std::vector<const char*> instanceExtensions;  // of the window system
     bool presentation = false;                    // enables VK_KHR_swapchain where offered
+    bool compilerOnly = false;                    // for a device without hardware: makes pipelines, runs and waits for nothing
     bool statistics = false;  // of compiled pipelines (pipeline_statistics.h), where offered; drivers may then cache less
     uint32_t framesInFlight = 2;
     std::string pipelineCacheFile;  // read at creation, written at destruction when changed; empty: none
@@ -56,6 +57,7 @@ struct Caps {
     bool debugUtils = false;
     bool validation = false;  // the Khronos layer is on
     bool presentation = false;
+    bool compilerOnly = false;            // DeviceOptions::compilerOnly
     bool statistics = false;              // VK_KHR_pipeline_executable_properties is on
     bool fragmentWrites = false;          // fragment shaders may write images and use atomics; unknown, so false, on adopted devices
     float maxAnisotropy = 1.0f;           // 1 where the feature is off

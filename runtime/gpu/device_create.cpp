@@ -171,6 +171,7 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& given, std::string& 
     device->m_log = options.log;
     device->m_framesInFlight = std::max(1u, options.framesInFlight);
     device->m_pipelineCacheFile = options.pipelineCacheFile;
+    device->m_caps.compilerOnly = options.compilerOnly;
     if (!device->createInstance(options, error) || !device->createDevice(options, error)) return nullptr;
     if (Status status = device->finish(); status != Status::ok) {
         error = fmt::format("Vulkan device '{}': {}", device->m_caps.deviceName, gpu::name(status));

@@ -67,7 +67,7 @@ std::unique_ptr<gpu::Device> compilerOf(const Chip& chip, std::string& error) {
     environment.set("OBSCURA_VALIDATION", "");
     environment.set("OBSCURA_DEVICE", "");
     gpu::DeviceOptions options;
-    options.statistics = true;
+    options.statistics = options.compilerOnly = true;
     std::unique_ptr<gpu::Device> device = gpu::Device::create(options, error);
     if (!device) error = fmt::format("RADV ({}) makes no device for {}: {}", driver, chip.id, error);
     else if (!device->caps().statistics)

@@ -88,8 +88,7 @@ void main() {
     vec3 tangent = normalize(vec3(1, 0, 0) - here.v * here.v.x), across = cross(tangent, here.v);
     float nv = dot(here.n, here.v), blocked = 0.0, measure = 0.0;
     // Loops are post-tested: lavapipe runs a pre-tested loop once more with every lane masked.
-    uint k = 0u;
-    while (true) {
+    for (uint k = 0u;;) {
         // Slices are evenly spaced around the view ray, not on the screen, so that they cover the hemisphere evenly.
         float turn = kPi * (float(k) + noise.x) / float(constants.slices);
         vec3 od = tangent * cos(turn) + across * sin(turn);
@@ -99,14 +98,13 @@ void main() {
         float no = dot(here.n, od), angle = atan(no, nv);
         float sine = no * inversesqrt(max(no * no + nv * nv, 1e-12));
         float jitter = noise.y + kNextStep * float(k);
-        float sign = 1.0;
-        while (true) {
+        for (uint halfIndex = 0u;;) {  // an integer counts, so that compilers know how often
+            float sign = halfIndex == 0u ? 1.0 : -1.0;
             float whole = 0.5 * max(nv + angle * no + sign * 0.5 * kPi * no, 0.0);
             float scale = 16.0 / max(whole, 1e-6);
             Side state = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0), here.n, 1.0, 1.0);
             float place = fract(jitter + (sign > 0.0 ? 0.0 : 0.5));
-            uint i = 0u;
-            while (true) {
+            for (uint i = 0u;;) {
                 float part = 1.0 / float(constants.steps), t0 = float(i) * part, t1 = t0 + part;
                 float e0 = max(t0 * sqrt(t0) * reach, 1.0), e1 = max(t1 * sqrt(t1) * reach, 1.0);
                 float t = t0 + place * part;
@@ -154,8 +152,7 @@ void main() {
             }
             blocked += state.blocked * whole;
             measure += whole;
-            if (sign < 0.0) break;
-            sign = -1.0;
+            if (++halfIndex >= 2u) break;
         }
         if (++k >= constants.slices) break;
     }
