@@ -18,6 +18,19 @@ void DescriptorPool::reset() {
     for (VkDescriptorPool pool : m_pools) m_device.vk().ResetDescriptorPool(m_device.handle(), pool, 0);
 }
 
+VkDescriptorSet DescriptorPool::make(const Program& program, uint32_t set, std::span<const Descriptor> contents) {
+    const VkDescriptorSet made = allocate(program.setLayout(set));
+    if (!made) return VK_NULL_HANDLE;
+    std::vector<VkWriteDescriptorSet> writes;
+    for (const Binding& binding : program.bindings(set)) {
+        const Descriptor& content = contents[writes.size()];
+        writes.push_back({VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, made, binding.binding, 0, 1, descriptorType(binding.kind),
+            &content.image, &content.buffer});
+    }
+    m_device.vk().UpdateDescriptorSets(m_device.handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);
+    return made;
+}
+
 VkDescriptorSet DescriptorPool::allocate(VkDescriptorSetLayout layout) {
     for (;; ++m_current) {
         const bool fresh = m_current == m_pools.size();

@@ -230,6 +230,15 @@ void Device::nameObject(VkObjectType type, uint64_t handle, const char* name) co
     m_vk.SetDebugUtilsObjectNameEXT(m_device, &info);
 }
 
+void Device::beginLabel(VkCommandBuffer cmd, const char* name) const {
+    const VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name, {}};
+    if (m_caps.debugUtils) m_vk.CmdBeginDebugUtilsLabelEXT(cmd, &label);
+}
+
+void Device::endLabel(VkCommandBuffer cmd) const {
+    if (m_caps.debugUtils) m_vk.CmdEndDebugUtilsLabelEXT(cmd);
+}
+
 void Device::log(Severity severity, const std::string& message) const {
     if (m_log) m_log(severity, message.c_str());
     else if (severity != Severity::info) std::fprintf(stderr, "obscura: %s\n", message.c_str());

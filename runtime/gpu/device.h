@@ -108,7 +108,10 @@ public:
 
     VkSampler sampler(Sampling sampling);                // cached, owned by the device
     VkSampler sampler(const VkSamplerCreateInfo& info);  // likewise
+    // For captures; nothing without debug utils.
     void nameObject(VkObjectType type, uint64_t handle, const char* name) const;
+    void beginLabel(VkCommandBuffer cmd, const char* name) const;
+    void endLabel(VkCommandBuffer cmd) const;
     void log(Severity severity, const std::string& message) const;
     // The last failure, for callers that only see that something was not made.
     void noteFailure(Status status) const { m_failure = status; }

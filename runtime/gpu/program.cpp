@@ -1,6 +1,7 @@
 #include "gpu/program.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,16 +18,6 @@ constexpr uint32_t kMaxPushConstantBytes = 128;
 // With DeviceOptions::statistics, for pipeline_statistics.h.
 constexpr VkPipelineCreateFlags kCaptureFlags =
     VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR | VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
-
-VkDescriptorType descriptorType(BindingKind kind) {
-    switch (kind) {
-        case BindingKind::sampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        case BindingKind::storageImage: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        case BindingKind::uniformBuffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        case BindingKind::storageBuffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    }
-    return VK_DESCRIPTOR_TYPE_MAX_ENUM;
-}
 
 struct Specialization {
     std::vector<VkSpecializationMapEntry> entries;
@@ -103,6 +94,41 @@ VkResult createGraphicsPipeline(const Device& device, const std::vector<VkPipeli
 }
 
 }  // namespace
+
+VkDescriptorType descriptorType(BindingKind kind) {
+    switch (kind) {
+        case BindingKind::sampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        case BindingKind::storageImage: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        case BindingKind::uniformBuffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        case BindingKind::storageBuffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+    return VK_DESCRIPTOR_TYPE_MAX_ENUM;
+}
+
+VkPipelineStageFlags2 pipelineStages(VkShaderStageFlags stages) {
+    VkPipelineStageFlags2 result = 0;
+    if (stages & VK_SHADER_STAGE_COMPUTE_BIT) result |= VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    if (stages & VK_SHADER_STAGE_VERTEX_BIT) result |= VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
+    if (stages & VK_SHADER_STAGE_FRAGMENT_BIT) result |= VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    return result;
+}
+
+void beginRendering(const Device& device, VkCommandBuffer cmd, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colors,
+    const VkRenderingAttachmentInfo* depth) {
+    const Api& vk = device.vk();
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea.extent = extent;
+    info.layerCount = 1;
+    info.colorAttachmentCount = uint32_t(colors.size());
+    info.pColorAttachments = colors.data();
+    info.pDepthAttachment = depth;
+    vk.CmdBeginRendering(cmd, &info);
+    const VkViewport viewport{0, 0, float(extent.width), float(extent.height), 0, 1};
+    vk.CmdSetViewport(cmd, 0, 1, &viewport);
+    vk.CmdSetScissor(cmd, 0, 1, &info.renderArea);
+    vk.CmdSetCullMode(cmd, VK_CULL_MODE_NONE);
+    vk.CmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+}
 
 Program::~Program() { releaseAll(); }
 
@@ -188,6 +214,22 @@ VkShaderStageFlags Program::stagesOf(const Binding& binding) const {
     for (size_t i = 0; i < m_bindings.size(); ++i)
         if (m_bindings[i].set == binding.set && m_bindings[i].binding == binding.binding) return m_bindingStages[i];
     return 0;
+}
+
+std::span<const Binding> Program::bindings(uint32_t set) const {
+    const auto [first, last] = std::equal_range(
+        m_bindings.begin(), m_bindings.end(), Binding{.set = set}, [](const Binding& a, const Binding& b) { return a.set < b.set; });
+    return {first, last};
+}
+
+void Program::bind(VkCommandBuffer cmd, VkDescriptorSet set) const {
+    m_device->vk().CmdBindPipeline(cmd, m_bindPoint, m_pipeline);
+    if (set) m_device->vk().CmdBindDescriptorSets(cmd, m_bindPoint, m_layout, 0, 1, &set, 0, nullptr);
+}
+
+void Program::push(VkCommandBuffer cmd, const void* data, uint32_t bytes, uint32_t offset) const {
+    assert(offset + bytes <= m_pushConstantBytes);
+    m_device->vk().CmdPushConstants(cmd, m_layout, m_stages, offset, bytes, data);
 }
 
 // On failure the half-made handles go with the object.

@@ -3,6 +3,7 @@
 // compiles keeps the last good pipeline.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ struct GraphicsState {
     std::vector<VkVertexInputAttributeDescription> vertexAttributes;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };  // viewport, scissor, cull mode and front face are dynamic
+
+VkDescriptorType descriptorType(BindingKind kind);
+VkPipelineStageFlags2 pipelineStages(VkShaderStageFlags stages);  // that run these shaders
+
+// Begins rendering to all of the attachments, `depth` or null, and sets the dynamic state: a viewport and a scissor of that extent, no
+// culling, counter-clockwise front faces.
+void beginRendering(const Device& device, VkCommandBuffer cmd, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colors,
+    const VkRenderingAttachmentInfo* depth);
 
 class Program {
 public:
@@ -53,14 +62,18 @@ public:
     VkPipelineBindPoint bindPoint() const { return m_bindPoint; }
     VkDescriptorSetLayout setLayout(uint32_t set) const { return set < m_setLayouts.size() ? m_setLayouts[set] : VK_NULL_HANDLE; }
     VkShaderStageFlags stages() const { return m_stages; }
-    // Bindings of one set, merged over stages, sorted by binding.
-    const std::vector<Binding>& bindings() const { return m_bindings; }  // all sets
+    // Merged over stages, sorted by set and binding: of all sets, of one.
+    const std::vector<Binding>& bindings() const { return m_bindings; }
+    std::span<const Binding> bindings(uint32_t set) const;
     VkShaderStageFlags stagesOf(const Binding& binding) const;
     const std::array<uint32_t, 3>& workgroup() const { return m_workgroup; }
     uint32_t pushConstantBytes() const { return m_pushConstantBytes; }
     const std::string& name() const { return m_name; }
     const std::string& shader() const { return m_vertex; }  // name of the compute or vertex shader
     const std::vector<Constant>& specialization() const { return m_constants; }
+
+    void bind(VkCommandBuffer cmd, VkDescriptorSet set) const;                                // the pipeline and set 0, if not null
+    void push(VkCommandBuffer cmd, const void* data, uint32_t bytes, uint32_t offset) const;  // constants
 
 private:
     void swap(Program& other) noexcept;

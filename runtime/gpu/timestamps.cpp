@@ -36,8 +36,14 @@ Status Timestamps::reserve(uint32_t count) {
 
 void Timestamps::begin(VkCommandBuffer cmd) {
     m_count = 0;
+    m_passes.clear();
     m_device.vk().CmdResetQueryPool(cmd, m_queries, 0, m_capacity);
     write(cmd);
+}
+
+void Timestamps::write(VkCommandBuffer cmd, const std::string& pass) {
+    write(cmd);
+    m_passes.push_back(pass);
 }
 
 // A software rasterizer bins a timestamp into work that is flushed later, so that a compute pass after a render pass would
@@ -63,8 +69,8 @@ void Timestamps::end(VkCommandBuffer cmd) {
     m_device.vk().CmdSetEvent2(cmd, m_executed, &info);
 }
 
-Status Timestamps::read(std::vector<double>& milliseconds) {
-    milliseconds.clear();
+Status Timestamps::read(std::vector<PassTime>& times) {
+    times.clear();
     const uint32_t count = std::exchange(m_count, 0);
     if (count == 0) return Status::ok;
     const Api& vk = m_device.vk();
@@ -78,7 +84,8 @@ Status Timestamps::read(std::vector<double>& milliseconds) {
         vk.GetQueryPoolResults(m_device.handle(), m_queries, 0, count, ticks.size() * 8, ticks.data(), 8, VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS) return result == VK_ERROR_DEVICE_LOST ? Status::deviceLost : Status::ok;
     for (uint32_t i = 0; i + 1 < count; ++i)
-        milliseconds.push_back(double((ticks[i + 1] - ticks[i]) & m_device.caps().timestampMask) * m_device.caps().timestampPeriod * 1e-6);
+        times.push_back(
+            {m_passes[i], double((ticks[i + 1] - ticks[i]) & m_device.caps().timestampMask) * m_device.caps().timestampPeriod * 1e-6});
     return Status::ok;
 }
 

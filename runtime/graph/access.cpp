@@ -40,21 +40,10 @@ const AccessInfo& info(Access access) {
 }
 
 Access accessOf(const gpu::Binding& binding) {
-    switch (binding.kind) {
-        case gpu::BindingKind::sampledImage: return Access::sampled;
-        case gpu::BindingKind::uniformBuffer: return Access::uniform;
-        default: break;
-    }
+    if (binding.kind == gpu::BindingKind::sampledImage) return Access::sampled;
+    if (binding.kind == gpu::BindingKind::uniformBuffer) return Access::uniform;
     if (!binding.writes) return Access::storageRead;
     return binding.reads ? Access::storageReadWrite : Access::storageWrite;
-}
-
-VkPipelineStageFlags2 pipelineStages(VkShaderStageFlags stages) {
-    VkPipelineStageFlags2 result = 0;
-    if (stages & VK_SHADER_STAGE_COMPUTE_BIT) result |= VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    if (stages & VK_SHADER_STAGE_VERTEX_BIT) result |= VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
-    if (stages & VK_SHADER_STAGE_FRAGMENT_BIT) result |= VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    return result;
 }
 
 }  // namespace obscura::graph

@@ -34,6 +34,5 @@ struct AccessInfo {
 };
 const AccessInfo& info(Access access);
 Access accessOf(const gpu::Binding& binding);
-VkPipelineStageFlags2 pipelineStages(VkShaderStageFlags stages);
 
 }  // namespace obscura::graph

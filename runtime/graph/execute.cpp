@@ -1,21 +1,9 @@
 // Recording a planned frame's commands: one loop gives every pass its label, barriers, bindings, work and timestamp.
 #include <algorithm>
-#include <cassert>
 
-#include "graph/physical.h"
+#include "graph/executor.h"
 
 namespace obscura::graph {
-
-void PassContext::push(const void* data, uint32_t bytes, uint32_t offset) const {
-    assert(program && program->pushConstantBytes() >= offset + bytes);
-    device.vk().CmdPushConstants(cmd, program->layout(), program->stages(), offset, bytes, data);
-}
-VkImageView PassContext::view(ImageId id, uint32_t mip) const {
-    const Executor::Physical& physical = executor.m_physical[id.index];
-    return mip == ~0u ? physical.view : physical.mip(mip);
-}
-ExternalBuffer PassContext::buffer(BufferId id) const { return executor.m_physical[id.index].buffer; }
-VkImage PassContext::image(ImageId id) const { return executor.m_physical[id.index].image; }
 
 void Executor::barriers(const Recording& recording, VkCommandBuffer cmd, const std::vector<Barrier>& list) {
     if (list.empty()) return;
@@ -33,120 +21,62 @@ void Executor::barriers(const Recording& recording, VkCommandBuffer cmd, const s
                 {gpu::aspectOf(resource.desc.format), b.firstMip, b.mips, 0, 1}});
         }
     }
-    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.imageMemoryBarrierCount = uint32_t(images.size());
-    info.pImageMemoryBarriers = images.data();
-    info.bufferMemoryBarrierCount = uint32_t(buffers.size());
-    info.pBufferMemoryBarriers = buffers.data();
+    const VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO, nullptr, 0, 0, nullptr, uint32_t(buffers.size()), buffers.data(),
+        uint32_t(images.size()), images.data()};
     m_device.vk().CmdPipelineBarrier2(cmd, &info);
 }
 
-void Executor::bind(VkCommandBuffer cmd, const Pass& pass) {
-    const gpu::Api& vk = m_device.vk();
-    const gpu::Program& program = *pass.m_program;
-    vk.CmdBindPipeline(cmd, program.bindPoint(), program.pipeline());
-    if (!pass.m_constants.empty() && program.pushConstantBytes() > 0)
-        vk.CmdPushConstants(cmd, program.layout(), program.stages(), 0,
-            std::min(program.pushConstantBytes(), uint32_t(pass.m_constants.size())), pass.m_constants.data());
-    if (const VkDescriptorSet set = m_sets[pass.m_index])
-        vk.CmdBindDescriptorSets(cmd, program.bindPoint(), program.layout(), 0, 1, &set, 0, nullptr);
-}
-
-void Executor::run(const Recording& recording, VkCommandBuffer cmd, const Pass& pass) {
-    const gpu::Api& vk = m_device.vk();
-    VkExtent2D extent{0, 0};
-    const bool attachments = !pass.m_colors.empty() || pass.m_depth;
-    const auto attachment = [&](const Pass::Attachment& a, VkImageLayout layout) {
-        const Resource& resource = recording.resources[a.resource];
-        extent = {resource.desc.width, resource.desc.height};
-        VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-        info.imageView = m_physical[a.resource].mip(0);
-        info.imageLayout = layout;
-        info.loadOp = a.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-        info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-        info.clearValue = a.value;
-        return info;
-    };
-    if (attachments) {
-        std::vector<VkRenderingAttachmentInfo> colors;
-        for (const Pass::Attachment& a : pass.m_colors) colors.push_back(attachment(a, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
-        VkRenderingAttachmentInfo depth{};
-        bool tested = false;
-        if (pass.m_depth) {
-            for (const Use& use : recording.passes[pass.m_index].uses) tested |= use.access == Access::depthTest;
-            depth = attachment(*pass.m_depth, tested ? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-            if (tested) depth.storeOp = VK_ATTACHMENT_STORE_OP_NONE;
-        }
-        VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-        info.renderArea.extent = extent;
-        info.layerCount = 1;
-        info.colorAttachmentCount = uint32_t(colors.size());
-        info.pColorAttachments = colors.data();
-        info.pDepthAttachment = pass.m_depth ? &depth : nullptr;
-        vk.CmdBeginRendering(cmd, &info);
-        const VkViewport viewport{0, 0, float(extent.width), float(extent.height), 0, 1};
-        const VkRect2D scissor{{0, 0}, extent};
-        vk.CmdSetViewport(cmd, 0, 1, &viewport);
-        vk.CmdSetScissor(cmd, 0, 1, &scissor);
-        vk.CmdSetCullMode(cmd, VK_CULL_MODE_NONE);
-        vk.CmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+void Executor::run(const Recording& recording, VkCommandBuffer cmd, const Pass& pass, VkDescriptorSet set) {
+    PassContext context{cmd, m_device, pass.m_program, m_physical, {}};
+    if (const gpu::Program* program = pass.m_program) {
+        program->bind(cmd, set);
+        if (const uint32_t bytes = std::min(program->pushConstantBytes(), uint32_t(pass.m_constants.size())))
+            program->push(cmd, pass.m_constants.data(), bytes, 0);
     }
-    if (pass.m_work == Pass::Work::dispatch) {
-        const auto& group = pass.m_program->workgroup();
-        vk.CmdDispatch(cmd, (pass.m_size[0] + group[0] - 1) / group[0], (pass.m_size[1] + group[1] - 1) / group[1],
-            (pass.m_size[2] + group[2] - 1) / group[2]);
-    } else if (pass.m_work == Pass::Work::draw) {
-        vk.CmdDraw(cmd, pass.m_size[0], pass.m_size[1], 0, 0);
-    } else {
-        pass.m_record({cmd, m_device, pass.m_program, *this, extent});
+    std::vector<VkRenderingAttachmentInfo> colors;
+    std::optional<VkRenderingAttachmentInfo> depth;
+    for (const Pass::Attachment& attachment : pass.m_attachments) {
+        const gpu::ImageDesc& desc = recording.resources[attachment.resource].desc;
+        context.extent = {desc.width, desc.height};
+        const AccessInfo& access = info(attachment.access);
+        VkRenderingAttachmentInfo target{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+        target.imageView = m_physical[attachment.resource].mip(0);
+        target.imageLayout = access.layout;
+        target.loadOp = attachment.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+        target.storeOp = access.writes ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
+        target.clearValue = attachment.clear.value_or(VkClearValue{});
+        if (attachment.access == Access::color) colors.push_back(target);
+        else depth = target;
     }
-    if (attachments) vk.CmdEndRendering(cmd);
+    const bool renders = !pass.m_attachments.empty();
+    if (renders) gpu::beginRendering(m_device, cmd, context.extent, colors, depth ? &*depth : nullptr);
+    pass.m_work(context);
+    if (renders) m_device.vk().CmdEndRendering(cmd);
 }
 
 const Timings& Executor::timings() {
-    if (frame().number != m_device.frame()) collectTimings(frame());
+    std::vector<PassTime> passes;
+    if (frame().number != m_device.frame()) m_deviceLost |= frame().timestamps.read(passes) == gpu::Status::deviceLost;
+    if (passes.empty()) return m_timings;
+    m_timings = {frame().number, std::move(passes), 0.0};
+    for (const PassTime& pass : m_timings.passes) m_timings.milliseconds += pass.milliseconds;
     return m_timings;
 }
 
-void Executor::collectTimings(Frame& frame) {
-    std::vector<double> times;
-    m_deviceLost |= frame.timestamps.read(times) == gpu::Status::deviceLost;
-    if (times.empty()) return;
-    m_timings.frame = frame.number;
-    m_timings.passes.clear();
-    m_timings.milliseconds = 0.0;
-    for (size_t i = 0; i < times.size(); ++i) {
-        m_timings.passes.push_back({frame.passNames[i], times[i]});
-        m_timings.milliseconds += times[i];
-    }
-}
-
 void Executor::record(const Graph& graph, const Plan& plan, VkCommandBuffer cmd) {
-    const gpu::Api& vk = m_device.vk();
     Frame& current = frame();
     current.number = m_device.frame();
-    current.passNames.clear();
-    const bool timing = m_timing && m_device.caps().timestamps;
-    if (timing) current.timestamps.begin(cmd);
-    const bool labels = vk.CmdBeginDebugUtilsLabelEXT && vk.CmdEndDebugUtilsLabelEXT && m_device.caps().debugUtils;
+    if (timed()) current.timestamps.begin(cmd);
     for (const Plan::Step& step : plan.steps) {
-        const Pass& pass = graph.m_passes[step.pass];
         const std::string& name = graph.m_recording.passes[step.pass].name;
-        if (labels) {
-            const VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name.c_str(), {}};
-            vk.CmdBeginDebugUtilsLabelEXT(cmd, &label);
-        }
+        m_device.beginLabel(cmd, name.c_str());
         barriers(graph.m_recording, cmd, step.barriers);
-        if (pass.m_program) bind(cmd, pass);
-        run(graph.m_recording, cmd, pass);
-        if (labels) vk.CmdEndDebugUtilsLabelEXT(cmd);
-        if (timing) {
-            current.timestamps.write(cmd);
-            current.passNames.push_back(name);
-        }
+        run(graph.m_recording, cmd, graph.m_passes[step.pass], m_sets[step.pass]);
+        m_device.endLabel(cmd);
+        if (timed()) current.timestamps.write(cmd, name);
     }
     barriers(graph.m_recording, cmd, plan.closing);
-    if (timing) current.timestamps.end(cmd);
+    if (timed()) current.timestamps.end(cmd);
 }
 
 }  // namespace obscura::graph

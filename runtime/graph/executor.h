@@ -3,9 +3,11 @@
 // succeeded: a frame that failed leaves everything as it was, and may be declared again.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <deque>
 #include <optional>
 
+#include "gpu/descriptor_pool.h"
 #include "graph/graph.h"
 
 namespace obscura::graph {
@@ -13,7 +15,6 @@ namespace obscura::graph {
 class Executor {
 public:
     explicit Executor(gpu::Device& device);
-    ~Executor();
     Executor(const Executor&) = delete;
 
     // Records everything, or nothing: Status::invalid (with a log line) when the recording contradicts itself or the shaders, or what the
@@ -28,32 +29,42 @@ public:
 
     // Bytes of device memory: of the pools; used by the last frame (pools, histories, uploads, imported buffers, each once).
     uint64_t poolBytes() const;
-    uint64_t frameBytes() const;
+    uint64_t frameBytes() const { return m_frameBytes; }
     // Device memory that an executor comes to hold for frames declared like this one: pools, histories, uploads of all frames in flight.
     // Makes nothing. 0, logged, when the recording contradicts itself.
     uint64_t bytes(Graph& graph) const;
 
 private:
-    friend struct PassContext;
-    struct Frame;     // descriptor pools, queries, upload memory of one frame in flight
-    struct Physical;  // what a resource is on the GPU this frame
-    struct Pooled;    // an image or a buffer, and its slot in the plan
-    struct Pending;   // a history's images until the frame is recorded
-    Frame& frame() const;
-    gpu::Status prepare(Graph& graph, Plan& plan, std::vector<Pending>& histories);
-    gpu::Status makePool(const Plan& plan);
+    struct Pooled {
+        Slot slot;
+        gpu::Image image;       // this
+        gpu::Buffer buffer;     // or this
+        std::string name;       // debug name
+        uint64_t lastUsed = 0;  // device frame
+        uint64_t bytes() const { return image.bytes() + buffer.bytes(); }
+    };
+    // What one frame in flight holds until its turn comes again.
+    struct Frame {
+        explicit Frame(gpu::Device& device) : sets(device), timestamps(device) {}
+        std::vector<gpu::Buffer> uploads;
+        gpu::DescriptorPool sets;
+        gpu::Timestamps timestamps;
+        uint64_t number = 0;
+    };
+    // Each history's images that were made anew, until the frame is recorded. Empty ones: the history's own serve.
+    using Pending = std::vector<std::array<gpu::Image, 2>>;
+
+    Frame& frame() { return m_frames[m_device.frame() % m_frames.size()]; }
+    bool timed() const { return m_timing && m_device.caps().timestamps; }
+    gpu::Status prepare(Graph& graph, Plan& plan, Pending& histories);
+    gpu::Status makePool(const Recording& recording, const Plan& plan);
     gpu::Status makeUploads(const Graph& graph, const Plan& plan);
-    gpu::Status makeHistories(const Graph& graph, std::vector<Pending>& histories);
-    void bindPhysical(const Graph& graph, const Plan& plan, const std::vector<Pending>& histories);
-    void namePool(const Graph& graph, const Plan& plan);
+    gpu::Status makeHistories(const Graph& graph, Pending& histories);
     gpu::Status makeSets(const Graph& graph, const Plan& plan);
-    gpu::Status makeSet(const Pass& pass, VkDescriptorSet& set);
     void record(const Graph& graph, const Plan& plan, VkCommandBuffer cmd);
-    void commit(Graph& graph, Plan& plan, std::vector<Pending>& histories) noexcept;
+    void commit(Graph& graph, Plan& plan, Pending& histories) noexcept;
     void barriers(const Recording& recording, VkCommandBuffer cmd, const std::vector<Barrier>& list);
-    void bind(VkCommandBuffer cmd, const Pass& pass);
-    void run(const Recording& recording, VkCommandBuffer cmd, const Pass& pass);
-    void collectTimings(Frame& frame);
+    void run(const Recording& recording, VkCommandBuffer cmd, const Pass& pass, VkDescriptorSet set);
 
     gpu::Device& m_device;
     bool m_timing = true, m_deviceLost = false;
@@ -64,7 +75,7 @@ private:
     std::vector<Pooled> m_pool;
     std::vector<Physical> m_physical;     // by resource, of the frame being recorded
     std::vector<VkDescriptorSet> m_sets;  // by pass
-    std::vector<std::unique_ptr<Frame>> m_frames;
+    std::deque<Frame> m_frames;
 };
 
 }  // namespace obscura::graph

@@ -18,7 +18,6 @@
 
 namespace obscura::graph {
 
-class Executor;
 // An image that outlives a frame: two copies, last frame's to read and this frame's to write. Owned by its user. A change of description
 // invalidates it; else only the executor changes it, when a frame has been recorded.
 class History {
@@ -29,8 +28,11 @@ public:
 private:
     friend class Graph;
     friend class Executor;
-    gpu::Image m_images[2];
-    std::vector<State> m_states[2];
+    struct Copy {
+        gpu::Image image;
+        std::vector<State> states;  // one a mip
+    };
+    Copy m_copies[2];
     uint32_t m_current = 0;  // which of the two the next frame writes
     bool m_valid = false;
 };
@@ -69,17 +71,17 @@ public:
     // `previous` may be read even when not valid: it is cleared to 0. `discard`: not valid this frame, whatever is there (camera cut).
     HistoryPair history(std::string name, gpu::ImageDesc desc, History& history, bool discard = false);
 
-    Pass& pass(std::string name, gpu::Program& program);
-    Pass& pass(std::string name);
-    void prefix(std::string text) { m_prefix = std::move(text); }  // of the names of passes declared from here on
-    void output(ImageId image);                                    // keep what writes it
+    Pass& pass(std::string name, gpu::Program& program) { return add(std::move(name), &program); }
+    Pass& pass(std::string name) { return add(std::move(name), nullptr); }
+    void prefix(std::string text) { m_prefix = std::move(text); }                     // of the names of passes declared from here on
+    void output(ImageId image) { m_recording.resources[image.index].output = true; }  // keep what writes it
     // Runs when the frame has been recorded, not when that failed: the place to remember what the frame leaves behind. Must not throw.
     void onRecorded(std::function<void()> then) { m_onRecorded.push_back(std::move(then)); }
 
-    gpu::Device& device() const { return m_device; }  // for its limits and its log
-    const Timings& timings() const;                   // those given to begin(); without passes if none were
-    const gpu::ImageDesc& desc(ImageId id) const { return m_recording.resources[id.index].desc; }
-    const std::string& name(ImageId id) const { return m_recording.resources[id.index].name; }
+    gpu::Device& device() const { return m_device; }       // for its limits and its log
+    const Timings& timings() const { return *m_timings; }  // those given to begin(); without passes if none were
+    const gpu::ImageDesc& desc(ResourceId id) const { return m_recording.resources[id.index].desc; }
+    const std::string& name(ResourceId id) const { return m_recording.resources[id.index].name; }
     // What each pass declared so far writes, for "view any pass".
     struct Written {
         std::string pass;
@@ -91,26 +93,21 @@ public:
     const Recording& recording() const { return m_recording; }
 
 private:
-    friend class Pass;
     friend class Executor;
-    struct Handles {  // of imported resources
-        VkImage image;
-        VkImageView view;
-        ExternalBuffer buffer;
-    };
     struct HistoryUse {
         History* history;
-        uint32_t previous, current;
+        uint32_t resources[2];  // of its copies
     };
-    uint32_t add(Resource resource, Handles handles = {});
-    bool check(const Pass& pass) const;
+    Pass& add(std::string name, gpu::Program* program);
+    uint32_t add(Resource resource, const Physical& physical = {});
+    std::string resolve(const Pass& pass, std::vector<Use>& uses) const;
 
     gpu::Device& m_device;
-    const Timings* m_timings = nullptr;
+    static inline const Timings kNoTimings;
+    const Timings* m_timings = &kNoTimings;
     Recording m_recording;
     std::deque<Pass> m_passes;         // a reference to one is handed out: they do not move
-    std::vector<Handles> m_handles;    // by resource
-    std::vector<std::byte> m_uploads;  // one behind the other; Resource::uploadOffset says where
+    std::vector<Physical> m_physical;  // by resource; of imported ones
     std::vector<HistoryUse> m_histories;
     std::vector<std::function<void()>> m_onRecorded;
     std::string m_prefix;

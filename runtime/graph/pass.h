@@ -3,36 +3,43 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "gpu/program.h"
 #include "gpu/resources.h"
-#include "graph/access.h"
+#include "gpu/timestamps.h"
+#include "graph/plan.h"
 
 namespace obscura::graph {
 
-struct ImageId {
+// Names a resource of one frame's recording.
+struct ResourceId {
     uint32_t index = ~0u;
     explicit operator bool() const { return index != ~0u; }
-    bool operator==(const ImageId&) const = default;
+    bool operator==(const ResourceId&) const = default;
 };
-struct BufferId {
-    uint32_t index = ~0u;
-    explicit operator bool() const { return index != ~0u; }
-};
+struct ImageId : ResourceId {};
+struct BufferId : ResourceId {};
 
+using gpu::PassTime;
 using gpu::Sampling;
 
 // Part of a buffer from outside, written before and kept until the frame has left the GPU.
 struct ExternalBuffer {
     VkBuffer buffer = VK_NULL_HANDLE;
     uint64_t offset = 0, bytes = 0;
+    bool operator==(const ExternalBuffer&) const = default;
 };
 
-struct PassTime {
-    std::string name;
-    double milliseconds = 0.0;
+// What stands behind an id this frame: an image or a buffer.
+struct Physical {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;  // all mips
+    const gpu::Image* owned = nullptr;  // for views of single mips; null for imported images
+    ExternalBuffer buffer;
+    VkImageView mip(uint32_t level) const { return owned ? owned->mipView(level) : view; }
 };
 
 struct Timings {
@@ -41,20 +48,17 @@ struct Timings {
     double milliseconds = 0.0;     // first to last timestamp
 };
 
-class Executor;
-class Graph;
-
 // What a recording callback gets: inside rendering when the pass has attachments, program and set 0 bound when it has one.
 struct PassContext {
     VkCommandBuffer cmd;
     const gpu::Device& device;
     const gpu::Program* program;
-    const Executor& executor;
-    VkExtent2D extent;  // of the attachments
-    void push(const void* data, uint32_t bytes, uint32_t offset = 0) const;
-    VkImageView view(ImageId id, uint32_t mip = ~0u) const;  // all mips, or one
-    VkImage image(ImageId id) const;
-    ExternalBuffer buffer(BufferId id) const;
+    const std::vector<Physical>& resources;  // by index of their ids
+    VkExtent2D extent;                       // of the attachments
+    void push(const void* data, uint32_t bytes, uint32_t offset = 0) const { program->push(cmd, data, bytes, offset); }
+    VkImageView view(ImageId id) const { return resources[id.index].view; }  // all mips
+    VkImage image(ImageId id) const { return resources[id.index].image; }
+    ExternalBuffer buffer(BufferId id) const { return resources[id.index].buffer; }
 };
 
 // Called once, during Executor::execute(), after all declarations: capture by value.
@@ -62,21 +66,24 @@ using Record = std::function<void(const PassContext&)>;
 
 class Pass {
 public:
-    Pass& read(ImageId image, Sampling sampling = Sampling::nearest);
-    Pass& readMip(ImageId image, uint32_t mip, Sampling sampling = Sampling::nearest);
-    Pass& read(BufferId buffer);
-    Pass& write(ImageId image);
-    Pass& writeMip(ImageId image, uint32_t mip);
-    Pass& write(BufferId buffer);
+    Pass& read(ResourceId id, Sampling sampling = Sampling::nearest) { return bind({id.index, 0, kAllMips, false, sampling}); }
+    Pass& readMip(ImageId image, uint32_t mip, Sampling sampling = Sampling::nearest) {
+        return bind({image.index, mip, 1, false, sampling});
+    }
+    Pass& write(ResourceId id) { return bind({id.index, 0, 1, true}); }  // of an image: mip 0
+    Pass& writeMip(ImageId image, uint32_t mip) { return bind({image.index, mip, 1, true}); }
     Pass& color(ImageId image, std::optional<VkClearColorValue> clear = std::nullopt);
     Pass& depth(ImageId image, std::optional<float> clear = std::nullopt);
-    Pass& depthTest(ImageId image);
+    Pass& depthTest(ImageId image) { return attach(image, Access::depthTest, std::nullopt); }
     // A use that is no shader binding: transfers, vertex and index buffers, attachments of a foreign render pass.
-    Pass& use(ImageId image, Access access, bool discard = false);
-    Pass& use(BufferId buffer, Access access);
-    Pass& keep();  // never culled
-    template <class T> Pass& constants(const T& value) { return constants(&value, sizeof(T)); }
-    Pass& constants(const void* data, uint32_t bytes);          // at most 128 bytes, copied
+    Pass& use(ResourceId id, Access access, bool discard = false);
+    Pass& keep();                                         // never culled
+    template <class T> Pass& constants(const T& value) {  // copied
+        static_assert(sizeof(T) <= 128);
+        const auto bytes = std::as_bytes(std::span(&value, 1));
+        m_constants.assign(bytes.begin(), bytes.end());
+        return *this;
+    }
     void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);  // invocations, rounded up to whole workgroups
     void draw(uint32_t vertices, uint32_t instances = 1);
     void record(Record record);
@@ -84,30 +91,27 @@ public:
 private:
     friend class Graph;
     friend class Executor;
-    struct Bound {
-        bool isBuffer;
+    static constexpr uint32_t kAllMips = ~0u;
+    struct Bound {  // to the next binding of set 0
         uint32_t resource;
-        uint32_t mip;
-        Sampling sampling;
+        uint32_t firstMip, mips;
         bool writes;
+        Sampling sampling = Sampling::nearest;
     };
     struct Attachment {
         uint32_t resource;
-        bool clear;
-        VkClearValue value;
+        Access access;  // color, depth or depthTest
+        std::optional<VkClearValue> clear;
     };
-    enum class Work : uint8_t { none, dispatch, draw, record };
-    Graph* m_graph = nullptr;
+    Pass& bind(const Bound& bound);
+    Pass& attach(ImageId image, Access access, std::optional<VkClearValue> clear);
     gpu::Program* m_program = nullptr;
-    uint32_t m_index = 0;
-    size_t m_declaredUses = 0;  // of the recording's, those that use() added; resolve() adds the shader's behind them
+    PassDesc m_desc;  // without the uses of the bindings, which Graph::resolve() adds
     std::vector<Bound> m_bound;
-    std::vector<Attachment> m_colors;
-    std::optional<Attachment> m_depth;
+    std::vector<Attachment> m_attachments;
     std::vector<std::byte> m_constants;
-    Work m_work = Work::none;
-    uint32_t m_size[3] = {1, 1, 1};
-    Record m_record;
+    Record m_work;
+    bool m_recorded = false;  // the work is a callback of record(), which may push constants of its own
 };
 
 }  // namespace obscura::graph

@@ -35,17 +35,16 @@ struct Resource {
     std::string name;
     Origin origin = Origin::transient;
     bool isBuffer = false;
-    gpu::ImageDesc desc;         // images; usage is added up by the plan
-    uint64_t bytes = 0;          // buffers
-    uint64_t uploadOffset = 0;   // uploads: where their data begins in what the recording holds
-    std::vector<State> initial;  // history, imported: one a mip (buffers: one); transients start from their slot's
+    gpu::ImageDesc desc;          // images; usage is added up by the plan. Buffers: one mip
+    uint64_t bytes = 0;           // buffers
+    std::vector<std::byte> data;  // uploads
+    std::vector<State> initial;   // history, imported: one a mip (buffers: one); transients start from their slot's
     VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED;  // imported images: in this layout after the last pass; UNDEFINED: as it comes
     bool output = false;                                    // what writes it is not culled
 };
 
 struct Use {
-    uint32_t resource = 0;
-    uint32_t firstMip = 0, mips = 1;
+    uint32_t resource = 0, firstMip = 0, mips = 1;
     Access access = Access::none;
     VkPipelineStageFlags2 stages = 0;
     bool discard = false;  // a write that needs nothing of what was there (clear, full overwrite)
@@ -63,11 +62,11 @@ struct Recording {
 };
 
 struct Barrier {
-    uint32_t resource = 0;
-    uint32_t firstMip = 0, mips = 1;
+    uint32_t resource = 0, firstMip = 0, mips = 1;
     VkPipelineStageFlags2 srcStages = 0, dstStages = 0;
     VkAccessFlags2 srcAccess = 0, dstAccess = 0;
-    VkImageLayout from = VK_IMAGE_LAYOUT_UNDEFINED, to = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImageLayout from = VK_IMAGE_LAYOUT_UNDEFINED, to = VK_IMAGE_LAYOUT_UNDEFINED;  // buffers: UNDEFINED
+    bool operator==(const Barrier&) const = default;
 };
 
 // A physical image or buffer of the pool.
@@ -99,6 +98,7 @@ struct Plan {
 
     std::string text(const Recording& recording) const;
     std::string dot(const Recording& recording) const;
+    std::string names(const Recording& recording, size_t slot, const char* separator) const;  // of the transients that live in a slot
 };
 
 // What the frame finds: the pool, in the states in which the previous frame left it, and the sizes of its pieces of upload memory.
@@ -106,8 +106,7 @@ Plan plan(const Recording& recording, std::vector<Slot> slots = {}, std::vector<
 
 constexpr VkBufferUsageFlags kUploadUsage =
     VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-constexpr VkBufferUsageFlags kPoolBufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                                VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+constexpr VkBufferUsageFlags kPoolBufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 
 // Device memory of the pool, the histories, and the uploads of all frames in flight. The device tells what an image or a buffer takes.
 struct MemoryOf {

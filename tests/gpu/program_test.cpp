@@ -240,18 +240,8 @@ TEST_F(ProgramTest, DrawsWithDynamicRendering) {
         colour.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
         colour.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
         colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-        VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-        rendering.renderArea = {{0, 0}, {8, 8}};
-        rendering.layerCount = 1;
-        rendering.colorAttachmentCount = 1;
-        rendering.pColorAttachments = &colour;
-        vk.CmdBeginRendering(cmd, &rendering);
-        vk.CmdBindPipeline(cmd, program.bindPoint(), program.pipeline());
-        const VkViewport viewport{0, 0, 8, 8, 0, 1};
-        vk.CmdSetViewport(cmd, 0, 1, &viewport);
-        vk.CmdSetScissor(cmd, 0, 1, &rendering.renderArea);
-        vk.CmdSetCullMode(cmd, VK_CULL_MODE_NONE);
-        vk.CmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        beginRendering(device, cmd, {8, 8}, {&colour, 1}, nullptr);
+        program.bind(cmd, VK_NULL_HANDLE);
         vk.CmdDraw(cmd, 3, 1, 0, 0);
         vk.CmdEndRendering(cmd);
     }),
