@@ -1,8 +1,8 @@
 // Both ray-traced references against stored ones of independent implementations. The folder lies beside the project or is
 // named by OBSCURA_ORACLE; without it these tests are skipped.
-#include <cstdlib>
 #include <ctime>
 
+#include "folders.h"
 #include "gpu/test_device.h"
 #include "truth/screen_reference.h"
 #include "truth/world_reference.h"
@@ -12,11 +12,6 @@ namespace {
 using namespace obscura;
 using namespace obscura::truth;
 namespace fs = std::filesystem;
-
-fs::path folder(const char* variable, const char* beside) {
-    const char* named = std::getenv(variable);
-    return named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / beside;
-}
 
 // "quadratic_2" -> quadratic:2
 RayFalloff falloffOf(const std::string& channel) {
@@ -32,7 +27,7 @@ struct Stored {
     std::vector<RayFalloff> falloffs;
 
     Stored(const std::string& name, const std::string& kind) {
-        const fs::path oracle = folder("OBSCURA_ORACLE", "oracle");
+        const fs::path oracle = test::oracleFolder();
         if (!fs::exists(oracle / (name + ".json")))
             test::skip("no " + (oracle / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
         frame = readCapture(oracle / name);
@@ -77,16 +72,16 @@ void expectWorld(const std::string& name, const fs::path& file, uint32_t stride)
     stored.expectClose(name, reference.trace(stored.frame, stored.falloffs, options), 0.004);
 }
 
-TEST(WorldOracle, corner) { expectWorld("corner", folder("OBSCURA_ORACLE", "oracle") / "corner.glb", 4); }
-TEST(WorldOracle, sphere) { expectWorld("sphere", folder("OBSCURA_ORACLE", "oracle") / "sphere.glb", 3); }
-TEST(WorldOracle, atrium) { expectWorld("atrium", folder("OBSCURA_ORACLE", "oracle") / "atrium.glb", 4); }
-TEST(WorldOracle, sponza) { expectWorld("sponza_a", folder("OBSCURA_CONTENT", "content") / "sponza/512/Sponza.gltf", 9); }
-TEST(WorldOracle, dragon) { expectWorld("dragon", folder("OBSCURA_CONTENT", "content") / "scenes/dragon.glb", 8); }
+TEST(WorldOracle, corner) { expectWorld("corner", test::oracleFolder() / "corner.glb", 4); }
+TEST(WorldOracle, sphere) { expectWorld("sphere", test::oracleFolder() / "sphere.glb", 3); }
+TEST(WorldOracle, atrium) { expectWorld("atrium", test::oracleFolder() / "atrium.glb", 4); }
+TEST(WorldOracle, sponza) { expectWorld("sponza_a", test::contentFolder() / "sponza/512/Sponza.gltf", 9); }
+TEST(WorldOracle, dragon) { expectWorld("dragon", test::contentFolder() / "scenes/dragon.glb", 8); }
 
 // A measurement, not a test: obscura_truth_tests --gtest_also_run_disabled_tests --gtest_filter='*raysPerSecond'
 TEST(WorldOracle, DISABLED_raysPerSecond) {
     const Stored stored("sponza_a", "world");
-    const fs::path file = folder("OBSCURA_CONTENT", "content") / "sponza/512/Sponza.gltf";
+    const fs::path file = test::contentFolder() / "sponza/512/Sponza.gltf";
     if (!fs::exists(file)) test::skip("no " + file.string());
     scene::World world;
     scene::Instance instance;
