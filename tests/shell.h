@@ -11,6 +11,8 @@
 
 #include <sys/wait.h>
 
+#include "temporary_folder.h"
+
 namespace obscura::test {
 
 // Quotes a string as one word of a POSIX shell.
@@ -49,20 +51,14 @@ struct Ended {
 
 // Runs a command line and waits until it exits.
 inline Ended runShell(const std::string& line) {
-    namespace fs = std::filesystem;
-    std::string name = (fs::temp_directory_path() / "obscura-shell.XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error("no folder can be made in " + fs::temp_directory_path().string());
-    const fs::path folder = name;
-    const auto textOf = [](const fs::path& file) {
+    const TemporaryFolder folder;
+    const auto textOf = [](const std::filesystem::path& file) {
         std::ostringstream text;
         text << std::ifstream(file, std::ios::binary).rdbuf();
         return text.str();
     };
     const int status = std::system((line + " >" + quoted(folder / "out") + " 2>" + quoted(folder / "error")).c_str());
-    Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "error")};
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-    return ended;
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "error")};
 }
 
 }  // namespace obscura::test

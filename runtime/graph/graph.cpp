@@ -37,6 +37,7 @@ Pass& Pass::keep() {
 }
 
 void Pass::dispatch(uint32_t x, uint32_t y, uint32_t z) {
+    m_invocations = {x, y, z};
     m_work = [x, y, z](const PassContext& c) {
         const auto& [gx, gy, gz] = c.program->workgroup();
         c.device.vk().CmdDispatch(c.cmd, (x + gx - 1) / gx, (y + gy - 1) / gy, (z + gz - 1) / gz);

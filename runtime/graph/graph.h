@@ -91,6 +91,7 @@ public:
     // The uses that the shaders of its passes imply, added to those declared. False, logged, when a pass contradicts its shaders.
     bool resolve();
     const Recording& recording() const { return m_recording; }
+    const Pass& declared(uint32_t pass) const { return m_passes[pass]; }  // by its index in the recording, after resolve()
 
 private:
     friend class Executor;

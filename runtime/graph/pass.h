@@ -1,6 +1,7 @@
 // A pass: the resources it reads and writes, its constants and its work.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -67,9 +68,7 @@ using Record = std::function<void(const PassContext&)>;
 class Pass {
 public:
     Pass& read(ResourceId id, Sampling sampling = Sampling::nearest) { return bind({id.index, 0, kAllMips, false, sampling}); }
-    Pass& readMip(ImageId image, uint32_t mip, Sampling sampling = Sampling::nearest) {
-        return bind({image.index, mip, 1, false, sampling});
-    }
+    Pass& readMip(ImageId id, uint32_t mip, Sampling sampling = Sampling::nearest) { return bind({id.index, mip, 1, false, sampling}); }
     Pass& write(ResourceId id) { return bind({id.index, 0, 1, true}); }  // of an image: mip 0
     Pass& writeMip(ImageId image, uint32_t mip) { return bind({image.index, mip, 1, true}); }
     Pass& color(ImageId image, std::optional<VkClearColorValue> clear = std::nullopt);
@@ -87,6 +86,10 @@ public:
     void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);  // invocations, rounded up to whole workgroups
     void draw(uint32_t vertices, uint32_t instances = 1);
     void record(Record record);
+
+    const gpu::Program* program() const { return m_program; }  // null: work without shaders of its own
+    std::span<const std::byte> constants() const { return m_constants; }
+    const std::array<uint32_t, 3>& invocations() const { return m_invocations; }  // of dispatch()
 
 private:
     friend class Graph;
@@ -110,6 +113,7 @@ private:
     std::vector<Bound> m_bound;
     std::vector<Attachment> m_attachments;
     std::vector<std::byte> m_constants;
+    std::array<uint32_t, 3> m_invocations{};
     Record m_work;
     bool m_recorded = false;  // the work is a callback of record(), which may push constants of its own
 };

@@ -32,25 +32,12 @@ protected:
         m_device.nextFrame();
         m_graph->begin();
         const graph::ImageId image = m_renderer->add(*m_graph, world, options).visibility;
-        gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(m_device, uint64_t(options.visible.width) * options.visible.height * 2,
-                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
-            gpu::Status::ok);
-        const graph::BufferId to = m_graph->import("back", back, graph::Graph::Shared::written);
-        m_graph->pass("read back")
-            .use(image, graph::Access::transferRead)
-            .use(to, graph::Access::transferWrite)
-            .keep()
-            .record([image, size = options.visible, handle = back.handle()](const graph::PassContext& c) {
-                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {size.width, size.height, 1}};
-                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
-            });
+        const gpu::Buffer back = readBack(*m_graph, image);
         gpu::Status status = gpu::Status::ok;
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor->execute(*m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
         truth::Plane visibility(captured.visible().x, captured.visible().y);
-        for (size_t i = 0; i < visibility.values.size(); ++i)
-            visibility.values[i] = halfToFloat(reinterpret_cast<const uint16_t*>(back.mapped())[i]);
+        visibility.values = halvesOf(back);
         truth::Plane reference = truth::readExr(folder / (name + ".reference.exr")).plane(channel);
         for (float& v : reference.values) v = 1.0f - v;
         const truth::Metrics metrics = truth::compare(visibility, reference, truth::Mask(captured.visibleMask()));

@@ -69,13 +69,7 @@ protected:
         EXPECT_EQ(gpu::download(
                       m_device, output.image, {VK_FORMAT_R16_SFLOAT, m_room.visibleWidth(), m_room.visibleHeight()}, output.layout, bytes),
             gpu::Status::ok);
-        std::vector<float> result(bytes.size() / 2);
-        for (size_t i = 0; i < result.size(); ++i) {
-            uint16_t half = 0;
-            std::memcpy(&half, bytes.data() + 2 * i, 2);
-            result[i] = test::halfToFloat(half);
-        }
-        return result;
+        return test::halvesOf(bytes);
     }
     static bool said(const std::string& part) {
         for (const std::string& line : lines())

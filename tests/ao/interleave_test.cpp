@@ -8,20 +8,11 @@
 namespace obscura::ao {
 namespace {
 
-class GatherTest : public ResolveTest {
+class GatherTest : public FilterTest<Gather> {
 protected:
-    void SetUp() override {
-        ResolveTest::SetUp();
-        ASSERT_EQ(Gather::create(m_device, m_shaders, m_gather), Status::ok);
-    }
-    void TearDown() override {
-        m_device.waitIdle();
-        m_gather = {};
-        ResolveTest::TearDown();
-    }
     Plane run(const Frame& frame, uint32_t side, bool weighted = false) {
         return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
-            if (!weighted) return m_gather.add(graph, inputs, source, side);
+            if (!weighted) return m_filter.add(graph, inputs, source, side);
             // Every pixel has obscurance 0.25 and some weight: visibility is reduced by a quarter, whatever the weights.
             gpu::Image image;
             std::vector<uint32_t> texels;
@@ -30,7 +21,7 @@ protected:
                     const float w = 0.5f + 0.125f * float((x + 3 * y) % 5);
                     texels.push_back(half(0.25f * w) | uint32_t(half(w)) << 16);
                 }
-            return m_gather.add(graph, inputs, this->image(m_input, VK_FORMAT_R16G16_SFLOAT, kWidth, kHeight, texels), side, source);
+            return m_filter.add(graph, inputs, this->image(m_input, VK_FORMAT_R16G16_SFLOAT, kWidth, kHeight, texels), side, source);
         });
     }
 
@@ -41,11 +32,10 @@ protected:
             for (uint32_t y = 0; y < kHeight; ++y)
                 for (uint32_t x = 0; x < kWidth; ++x)
                     texels.insert(texels.end(), {std::bit_cast<uint32_t>(frame.depth(int(x), int(y))), packed(frame.normal)});
-            return m_gather.addMap(graph, inputs, source, image(m_input, VK_FORMAT_R32G32_UINT, kWidth, kHeight, texels), scale, side);
+            return m_filter.addMap(graph, inputs, source, image(m_input, VK_FORMAT_R32G32_UINT, kWidth, kHeight, texels), scale, side);
         });
     }
 
-    Gather m_gather;
     gpu::Image m_input;
 };
 

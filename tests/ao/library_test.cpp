@@ -1,6 +1,7 @@
 // Properties that hold for every method, on analytic frames.
 #include "ao/room.h"
 #include "graph/executor.h"
+#include "graph/read_back.h"
 
 namespace obscura::ao {
 namespace {
@@ -68,28 +69,11 @@ protected:
                 gpu::Status::ok);
             return {};
         }
-        const uint32_t width = room.visibleWidth(), height = room.visibleHeight();
-        gpu::Buffer back;
-        EXPECT_EQ(gpu::Buffer::create(
-                      m_device, uint64_t(width) * height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
-            gpu::Status::ok);
-        const graph::BufferId target = m_graph.import("back", back, graph::Graph::Shared::written);
-        m_graph.pass("read back")
-            .use(visibility, graph::Access::transferRead)
-            .use(target, graph::Access::transferWrite)
-            .record([&, visibility](const graph::PassContext& c) {
-                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
-                c.device.vk().CmdCopyImageToBuffer(
-                    c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
-            });
+        const gpu::Buffer back = test::readBack(m_graph, visibility);
         gpu::Status status = gpu::Status::ok;
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
-        std::vector<uint16_t> half(size_t(width) * height);
-        std::memcpy(half.data(), back.mapped(), half.size() * 2);
-        std::vector<float> result;
-        for (const uint16_t h : half) result.push_back(test::halfToFloat(h));
-        return result;
+        return test::halvesOf(back);
     }
     static Values preset(const MethodInfo& info, const Preset& preset) {
         Values values(info);

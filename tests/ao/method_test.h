@@ -7,6 +7,7 @@
 
 #include "ao/room.h"
 #include "graph/executor.h"
+#include "graph/read_back.h"
 
 namespace obscura::test {
 
@@ -67,29 +68,13 @@ protected:
         const graph::ImageId visibility = m_library->add(*m_graph, frame, sources, rho, values).visibility;
         EXPECT_TRUE(bool(visibility));
         if (!visibility) return {};
-        const uint32_t width = frame.size.width - 2 * frame.guard.width, height = frame.size.height - 2 * frame.guard.height;
-        gpu::Buffer back, probe;
-        const auto readBack = [&](graph::ImageId image, gpu::Buffer& buffer) {
-            const gpu::ImageDesc desc = m_graph->desc(image);
-            const uint64_t bytes = uint64_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format);
-            EXPECT_EQ(gpu::Buffer::create(m_device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", buffer),
-                gpu::Status::ok);
-            const graph::BufferId target = m_graph->import("back", buffer, graph::Graph::Shared::written);
-            m_graph->pass("read back")
-                .use(image, graph::Access::transferRead)
-                .use(target, graph::Access::transferWrite)
-                .keep()
-                .record([image, desc, to = buffer.handle()](const graph::PassContext& c) {
-                    const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {desc.width, desc.height, 1}};
-                    c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &region);
-                });
-        };
         graph::ImageId probed;
         for (const auto& written : m_graph->written())
             if (m_graph->name(written.image) == m_probe) probed = written.image;
         EXPECT_TRUE(m_probe.empty() || probed) << m_probe;
-        readBack(visibility, back);
-        if (probed) readBack(probed, probe);
+        const gpu::Buffer back = readBack(*m_graph, visibility);
+        gpu::Buffer probe;
+        if (probed) probe = readBack(*m_graph, probed);
         m_passes.clear();
         for (const auto& written : m_graph->written()) m_passes.insert(written.pass);
         gpu::Status status = gpu::Status::ok;
@@ -101,10 +86,8 @@ protected:
             m_probed.words.resize(size_t(m_probed.width) * m_probed.height * m_probed.each);
             std::memcpy(m_probed.words.data(), probe.mapped(), m_probed.words.size() * 4);
         }
-        std::vector<uint16_t> half(size_t(width) * height);
-        std::memcpy(half.data(), back.mapped(), half.size() * 2);
-        Picture result;
-        for (const uint16_t h : half) result.push_back(1.0f - halfToFloat(h));
+        Picture result = halvesOf(back);
+        for (float& v : result) v = 1.0f - v;
         return result;
     }
 

@@ -3,10 +3,10 @@
 // OBSCURA_SOURCE_DIR.
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "ao/method_test.h"
+#include "folders.h"
 #include "truth/captured_frame.h"
 #include "truth/metrics.h"
 
@@ -14,31 +14,32 @@ namespace obscura::test {
 
 namespace fs = std::filesystem;
 
+// A captured frame as a room's images; `frame` describes their formats and spaces.
+inline Room roomOf(const truth::CapturedFrame& captured, ao::Frame& frame) {
+    Room room;
+    room.width = captured.size.x;
+    room.height = captured.size.y;
+    room.depth = captured.depth;
+    for (const glm::vec3& n : captured.normals) room.normals.insert(room.normals.end(), {n.x, n.y, n.z, 0.0f});
+    frame = room.frame();
+    frame.guard = {captured.guard.x, captured.guard.y};
+    frame.skyDepth = captured.skyDepth;
+    std::memcpy(frame.projection, &captured.projection[0][0], sizeof(frame.projection));
+    return room;
+}
+
 class OracleTest : public MethodTest {
 protected:
     using MethodTest::MethodTest;
 
-    fs::path folder() const {
-        const char* named = std::getenv("OBSCURA_ORACLE");
-        return named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
-    }
+    fs::path folder() const { return oracleFolder(); }
 
-    // A stored frame as a room's images; `frame` describes their formats and spaces.
+    // A stored frame by its name.
     Room captured(const std::string& name, ao::Frame& frame) const {
         const fs::path folder = this->folder();
         if (!fs::exists(folder / (name + ".json")))
             skip("no " + (folder / name).string() + ".json; set OBSCURA_ORACLE to the stored references");
-        const truth::CapturedFrame captured = truth::readCapture(folder / name);
-        Room room;
-        room.width = captured.size.x;
-        room.height = captured.size.y;
-        room.depth = captured.depth;
-        for (const glm::vec3& n : captured.normals) room.normals.insert(room.normals.end(), {n.x, n.y, n.z, 0.0f});
-        frame = room.frame();
-        frame.guard = {captured.guard.x, captured.guard.y};
-        frame.skyDepth = captured.skyDepth;
-        std::memcpy(frame.projection, &captured.projection[0][0], sizeof(frame.projection));
-        return room;
+        return roomOf(truth::readCapture(folder / name), frame);
     }
 
     // name: "corner"; channel: "world.linear_1.5", of NAME.reference.exr. Metrics of obscurance over the valid visible pixels.

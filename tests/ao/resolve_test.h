@@ -7,6 +7,7 @@
 #include "ao/method.h"
 #include "ao/room.h"
 #include "graph/executor.h"
+#include "graph/read_back.h"
 
 namespace obscura::ao {
 
@@ -67,26 +68,11 @@ protected:
         const graph::ImageId result = filter(m_graph, inputs, source);
         m_passedThrough = result == source;
         if (m_passedThrough) return visibility;
-        gpu::Buffer back;
-        EXPECT_EQ(
-            gpu::Buffer::create(m_device, kWidth * kHeight * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
-            gpu::Status::ok);
-        const graph::BufferId target = m_graph.import("back", back, graph::Graph::Shared::written);
-        m_graph.pass("read back")
-            .use(result, graph::Access::transferRead)
-            .use(target, graph::Access::transferWrite)
-            .record([&, result](const graph::PassContext& c) {
-                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kWidth, kHeight, 1}};
-                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(result), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
-            });
+        const gpu::Buffer back = test::readBack(m_graph, result);
         gpu::Status status = gpu::Status::ok;
         EXPECT_EQ(m_device.runNow([&](VkCommandBuffer cmd) { status = m_executor.execute(m_graph, cmd); }), gpu::Status::ok);
         EXPECT_EQ(status, gpu::Status::ok);
-        std::vector<uint16_t> words(kWidth * kHeight);
-        std::memcpy(words.data(), back.mapped(), words.size() * 2);
-        Plane plane;
-        for (const uint16_t h : words) plane.push_back(test::halfToFloat(h));
-        return plane;
+        return test::halvesOf(back);
     }
 
     // Within 0.001 of the float: the precision of visibility in half floats.
@@ -121,6 +107,22 @@ protected:
     graph::Graph m_graph{m_device};
     graph::Executor m_executor{m_device};
     bool m_passedThrough = false;
+};
+
+// With the pass under test, whose pipelines create() makes.
+template <class Filter> class FilterTest : public ResolveTest {
+protected:
+    void SetUp() override {
+        ResolveTest::SetUp();
+        ASSERT_EQ(Filter::create(m_device, m_shaders, m_filter), Status::ok);
+    }
+    void TearDown() override {
+        m_device.waitIdle();
+        m_filter = {};
+        ResolveTest::TearDown();
+    }
+
+    Filter m_filter;
 };
 
 }  // namespace obscura::ao

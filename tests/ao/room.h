@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "ao/library.h"
@@ -149,5 +150,14 @@ inline float halfToFloat(uint16_t h) {
     const float magnitude = exponent == 0 ? std::ldexp(float(mantissa), -24) : std::ldexp(float(mantissa) / 1024.0f + 1.0f, exponent - 15);
     return h & 0x8000 ? -magnitude : magnitude;
 }
+// Half floats as floats; of a buffer in host memory.
+inline std::vector<float> halvesOf(std::span<const std::byte> bytes) {
+    std::vector<uint16_t> halves(bytes.size() / 2);
+    std::memcpy(halves.data(), bytes.data(), halves.size() * 2);
+    std::vector<float> floats;
+    for (const uint16_t h : halves) floats.push_back(halfToFloat(h));
+    return floats;
+}
+inline std::vector<float> halvesOf(const gpu::Buffer& buffer) { return halvesOf({buffer.mapped(), size_t(buffer.bytes())}); }
 
 }  // namespace obscura::test

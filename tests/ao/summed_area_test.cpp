@@ -3,7 +3,6 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <random>
 
 #include "ao/summed_area.h"
@@ -131,9 +130,8 @@ TEST_P(SummedAreaTest, twoDispatchesPassOverTheTable) {
 
 // Loads and stores of an invocation in shared/scan.glsl, which both passes run, counted in the shader.
 TEST_P(SummedAreaTest, lineIsReadAtMostTwiceAndWrittenOnce) {
-    TemporaryFolder folder;
-    const std::filesystem::path file = folder.path() / "count.comp", root = std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders";
-    std::ofstream(file) << R"(#version 460
+    TestShaders shaders;
+    shaders.add("count.comp", R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 const uint kScanLines = 8u, kScanMost = 16u;
 layout(local_size_x = 8, local_size_y = 16) in;
@@ -143,16 +141,10 @@ uvec4 scanLoad(uint line, uint i) { atomicAdd(loads, 1u); return uvec4(i); }
 void scanStore(uint line, uint i, uvec4 sum) { atomicAdd(stores, 1u); }
 #include "shared/scan.glsl"
 void main() { scanLines(gl_GlobalInvocationID.x, count, gl_GlobalInvocationID.x < lines); }
-)";
-    gpu::Shader shader;
-    std::string error;
-    std::vector<std::filesystem::path> files;
-    ASSERT_TRUE(gpu::compileShader(root, file.string(), shader, error, files)) << error;
-    const std::string reflection = describe(shader);
-    const gpu::EmbeddedShader embedded{"count.comp", shader.spirv, reflection.c_str()};
-    m_shaders.add({&embedded, 1});
+)",
+        std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders");
     gpu::Program program;
-    ASSERT_EQ(gpu::Program::compute(m_device, m_shaders, "count.comp", {{0, GetParam()}}, program), gpu::Status::ok);
+    ASSERT_EQ(gpu::Program::compute(m_device, shaders.library, "count.comp", {{0, GetParam()}}, program), gpu::Status::ok);
     for (const uvec2 size : {uvec2{640, 360}, uvec2{17, 9}, uvec2{1, 1}}) {
         const gpu::Buffer counts = buffer(8);
         std::memset(counts.mapped(), 0, 8);

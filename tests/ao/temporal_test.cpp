@@ -8,24 +8,14 @@
 namespace obscura::ao {
 namespace {
 
-class TemporalTest : public ResolveTest {
+class TemporalTest : public FilterTest<Temporal> {
 protected:
-    void SetUp() override {
-        ResolveTest::SetUp();
-        ASSERT_EQ(Temporal::create(m_device, m_shaders, m_temporal), Status::ok);
-    }
-    void TearDown() override {
-        m_device.waitIdle();
-        m_temporal = {};
-        ResolveTest::TearDown();
-    }
     Plane run(const Frame& frame, const TemporalSettings& settings) {
         return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
-            return m_temporal.add(graph, inputs, source, settings, std::exchange(m_discard, false), "temporal");
+            return m_filter.add(graph, inputs, source, settings, std::exchange(m_discard, false), "temporal");
         });
     }
 
-    Temporal m_temporal;
     bool m_discard = false;  // history, in the next frame
 };
 

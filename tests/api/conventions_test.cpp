@@ -311,12 +311,7 @@ TEST_P(Conventions, giveTheVisibilityOfTheCanonicalFrame) {
     }
 }
 
-std::vector<const char*> ids() {
-    std::vector<const char*> all;
-    for (const MethodInfo* info : methods()) all.push_back(info->id);
-    return all;
-}
-INSTANTIATE_TEST_SUITE_P(all, Conventions, testing::ValuesIn(ids()), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(all, Conventions, testing::ValuesIn(test::methodIds()), [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace obscura::ao

@@ -195,12 +195,7 @@ TEST_P(FaultyMethod, everyFailingPipelineIsNamedAndRecovered) {
     }
 }
 
-std::vector<const char*> ids() {
-    std::vector<const char*> all;
-    for (const MethodInfo* info : methods()) all.push_back(info->id);
-    return all;
-}
-INSTANTIATE_TEST_SUITE_P(all, FaultyMethod, testing::ValuesIn(ids()), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(all, FaultyMethod, testing::ValuesIn(test::methodIds()), [](const auto& info) { return std::string(info.param); });
 
 TEST_F(Faulty, failingHostAllocationsAreRecovered) {
     const VkAllocationCallbacks callbacks{nullptr, &HostMemory::allocate, &HostMemory::reallocate, &HostMemory::free, nullptr, nullptr};

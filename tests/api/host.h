@@ -141,13 +141,7 @@ public:
         std::vector<std::byte> bytes;
         EXPECT_EQ(
             gpu::download(m_device, output.image, {VK_FORMAT_R16_SFLOAT, size.width, size.height}, output.layout, bytes), gpu::Status::ok);
-        std::vector<float> result(bytes.size() / 2);
-        for (size_t i = 0; i < result.size(); ++i) {
-            uint16_t half = 0;
-            std::memcpy(&half, bytes.data() + 2 * i, 2);
-            result[i] = halfToFloat(half);
-        }
-        return result;
+        return halvesOf(bytes);
     }
     bool said(const std::string& part) const {
         return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(part) != std::string::npos; });
@@ -203,5 +197,11 @@ private:
     VkCommandPool m_pool = VK_NULL_HANDLE;
     VkCommandBuffer m_cmd = VK_NULL_HANDLE;
 };
+
+inline std::vector<const char*> methodIds() {
+    std::vector<const char*> ids;
+    for (const ao::MethodInfo* info : ao::methods()) ids.push_back(info->id);
+    return ids;
+}
 
 }  // namespace obscura::test

@@ -6,9 +6,6 @@
 #include <random>
 #include <sstream>
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 namespace obscura::evaluate {
 
 namespace fs = std::filesystem;
@@ -20,21 +17,6 @@ std::string textOf(const fs::path& file) {
 }
 
 Ended runTool(const std::string& arguments) { return test::runShell(shellCommand("{} ", OBSCURA_EVALUATE) + arguments); }
-
-Scratch::Scratch() {
-    static int count = 0;
-    m_folder = fs::temp_directory_path() / fmt::format("obscura-evaluate-test.{}.{}", ::getpid(), count++);
-    fs::create_directories(m_folder);
-}
-
-Scratch::~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(m_folder, ignored);
-}
-
-size_t Scratch::files() const {
-    return size_t(std::distance(fs::recursive_directory_iterator(m_folder), fs::recursive_directory_iterator()));
-}
 
 truth::CapturedFrame cornerFrame() {
     truth::CapturedFrame frame = truth::emptyFrame({64, 36}, {6, 4}, 1.0471976f, 0.1f);

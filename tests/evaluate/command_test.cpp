@@ -30,14 +30,14 @@ protected:
 
     // An invalid frame is refused with one line that contains `expected`, and no file is written.
     void expectRefused(const std::string& expected, const std::string& more = "") {
-        const size_t before = m_scratch.files();
+        const size_t before = m_scratch.files().size();
         const Ended ended = runTool(
             shellCommand("--capture {} --camera {} --json {} --out {} ", exr(), camera(), m_scratch / "e.json", m_scratch / "out") + more);
         EXPECT_EQ(ended.code, 2) << ended.error;
         EXPECT_EQ(ended.errorLines(), 1u) << ended.error;
         EXPECT_NE(ended.error.find(expected), std::string::npos) << ended.error;
         EXPECT_EQ(ended.out, "");
-        EXPECT_EQ(m_scratch.files(), before);
+        EXPECT_EQ(m_scratch.files().size(), before);
     }
     void rewrite(const std::function<void(truth::Picture&)>& change) {
         truth::Picture picture = truth::readExr(exr());
@@ -45,7 +45,7 @@ protected:
         truth::writeExr(exr(), picture);
     }
     json camera_() const { return json::parse(textOf(camera())); }
-    Scratch m_scratch;
+    TemporaryFolder m_scratch;
 };
 
 TEST_F(OnAFrame, writesErrorsImagesAndTables) {
@@ -210,7 +210,7 @@ TEST_F(OnAFrame, unwritableFolderIsRefused) {
 }
 
 TEST(OnAScene, capturedFrameGivesTheSameErrors) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const std::string reference = (scratch / "out/toasters.own.reference.exr").string();
     const Ended scene = runTool(shellCommand("--scene toasters --size 96x54 --rays 64 --frames 1 --json {} --out {} --capture-out {}",
         scratch / "a.json", scratch / "out", scratch / "frame"));
@@ -225,7 +225,7 @@ TEST(OnAScene, capturedFrameGivesTheSameErrors) {
 
 TEST(OnAScene, passesOfSomeFramesOnlyAreTimed) {
     // Depth layers are drawn by two techniques in turn until one is measured to be cheaper.
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const std::string file = (scratch / "a.json").string();
     const Ended ended =
         runTool(shellCommand("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality"
@@ -248,7 +248,7 @@ TEST(OnAScene, unknownNamesPrintOneLine) {
 }
 
 TEST(OnAScene, gateFailsWhenACellWorsens) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const std::string file = (scratch / "b.json").string();
     std::ofstream(file)
         << R"({"size":[64,36],"guard":0.1,"rays":32,"seed":1,"relative":0.03,"absolute":0.0005,"scenes":["toasters"],"cameras":["own"],)"

@@ -112,7 +112,7 @@ Baseline small() {
 }
 
 TEST(Gate, baselineRoundTrips) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const Baseline written = small();
     std::ofstream(scratch / "b.json") << baselineText(written);
     const Baseline read = readBaseline(scratch / "b.json");

@@ -22,7 +22,7 @@ class Gallery : public testing::Test {
 protected:
     // One small page for all tests: two frames, two presets, two falloffs, two references.
     static void SetUpTestSuite() {
-        s_scratch = new Scratch();
+        s_scratch = new TemporaryFolder();
         s_made =
             new Ended(runTool(shellCommand("--gallery {} --scene toasters --camera own,path:@4 --method none,hbao --preset default,8x4 "
                                            "--size 160x90 --rays 32 --frames 2 --seed 3",
@@ -80,9 +80,9 @@ protected:
                 .write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
     }
 
-    static inline Scratch* s_scratch = nullptr;
+    static inline TemporaryFolder* s_scratch = nullptr;
     static inline Ended* s_made = nullptr;
-    Scratch m_profile;
+    TemporaryFolder m_profile;
     std::unique_ptr<Browser> m_browser;
 };
 

@@ -27,21 +27,9 @@ protected:
         inputs.falloff = ao::falloffBlock(inputs.falloffDesc);
         Table result;
         result.halves.resize(size_t(kColumns) * kRows * 8);
-        gpu::Buffer back;
-        EXPECT_EQ(
-            gpu::Buffer::create(m_device, result.halves.size() * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
-            gpu::Status::ok);
         m_device.nextFrame();
         m_graph->begin();
-        const graph::ImageId image = table.add(*m_graph, inputs, "table");
-        const graph::BufferId target = m_graph->import("back", back, graph::Graph::Shared::written);
-        m_graph->pass("read back")
-            .use(image, graph::Access::transferRead)
-            .use(target, graph::Access::transferWrite)
-            .record([&](const graph::PassContext& c) {
-                const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kColumns, kRows, 1}};
-                c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.handle(), 1, &region);
-            });
+        const gpu::Buffer back = readBack(*m_graph, table.add(*m_graph, inputs, "table"));
         EXPECT_EQ(
             m_device.runNow([&](VkCommandBuffer cmd) { EXPECT_EQ(m_executor->execute(*m_graph, cmd), gpu::Status::ok); }), gpu::Status::ok);
         std::memcpy(result.halves.data(), back.mapped(), result.halves.size() * 2);

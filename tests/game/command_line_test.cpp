@@ -69,8 +69,8 @@ TEST(CommandLine, InvalidOptionsPrintOneLine) {
 }
 
 TEST(CommandLine, InvalidFilesPrintOneLine) {
-    const auto folder = freshFolder("bad-files");
-    const std::string scene = writeSmallScene(folder).string();
+    const TemporaryFolder folder;
+    const std::string scene = writeSmallScene(folder.path()).string();
     const std::string text = (folder / "text.glb").string(), camera = (folder / "camera.json").string(),
                       path = (folder / "path.json").string();
     std::ofstream(text) << "not a model";
@@ -85,7 +85,7 @@ TEST(CommandLine, InvalidFilesPrintOneLine) {
         {{"--headless", "--scene", scene, "--camera", "path:" + path}, {path, "/keys"}},
         {{"--headless", "--scene", scene, "--camera", "scene:0"}, {"scene:0", "no cameras"}},
         {{"--headless", "--scene", scene, "--screenshot", "/no/such/folder/a.png"}, {"/no/such/folder/a.png", "cannot be written"}},
-        {{"--headless", "--scene", scene, "--screenshot", folder.string()}, {folder.string(), "folder"}},
+        {{"--headless", "--scene", scene, "--screenshot", folder.path().string()}, {folder.path().string(), "folder"}},
         {{"--headless", "--scene", scene, "--out", text}, {text, "cannot be written"}},
         {{"--headless", "--scene", scene, "--device", "Voodoo 2"}, {"Voodoo 2", "there are"}},
         {{"--headless", "--scene", scene, "--size", "64x36", "--view", "pass:no such"}, {"pass:no such", "tone map"}},
@@ -94,7 +94,6 @@ TEST(CommandLine, InvalidFilesPrintOneLine) {
         SCOPED_TRACE(testing::PrintToString(bad.arguments));
         expectOneLine(run(bad.arguments), bad.says);
     }
-    std::filesystem::remove_all(folder);
 }
 
 TEST(CommandLine, RegistryAsJson) {

@@ -11,15 +11,8 @@
 namespace obscura::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-class Compare : public testing::Test {
+class Compare : public SmallSceneTest {
 protected:
-    void SetUp() override {
-        m_folder = freshFolder("compare");
-        m_scene = writeSmallScene(m_folder).string();
-    }
-    void TearDown() override { fs::remove_all(m_folder); }
     // The last of three frames, so that history has an influence.
     Decoded shoot(const std::string& name, std::vector<std::string> more) {
         std::vector<std::string> arguments{
@@ -30,9 +23,6 @@ protected:
         EXPECT_EQ(ran.err, "");
         return decodePng(file(name));
     }
-    std::string file(const std::string& name) const { return (m_folder / name).string(); }
-    fs::path m_folder;
-    std::string m_scene;
 };
 
 const std::vector<std::string> kA{"--method", "hbao", "--set", "temporal=0.9"}, kB{"--method", "horizon_split", "--set", "temporal=0.8"};

@@ -12,24 +12,13 @@
 namespace obscura::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-class Headless : public testing::Test {
+class Headless : public SmallSceneTest {
 protected:
-    void SetUp() override {
-        m_folder = freshFolder("headless");
-        m_scene = writeSmallScene(m_folder).string();
-    }
-    void TearDown() override { fs::remove_all(m_folder); }
     Ran shoot(const std::string& name, std::vector<std::string> more) {
         std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--size", "96x54", "--screenshot", file(name)};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments);
     }
-    std::string file(const std::string& name) const { return (m_folder / name).string(); }
-    size_t filesThere() const { return size_t(std::distance(fs::directory_iterator(m_folder), fs::directory_iterator())); }
-    fs::path m_folder;
-    std::string m_scene;
 };
 
 TEST_F(Headless, ScreenshotIsCompleteAndHasItsSize) {
@@ -42,7 +31,7 @@ TEST_F(Headless, ScreenshotIsCompleteAndHasItsSize) {
     EXPECT_EQ(picture.height, 54);
     ASSERT_FALSE(picture.rgb.empty());
     EXPECT_GT(*std::max_element(picture.rgb.begin(), picture.rgb.end()), *std::min_element(picture.rgb.begin(), picture.rgb.end()) + 40);
-    EXPECT_EQ(filesThere(), 3u);  // the scene's two and the picture
+    EXPECT_EQ(m_folder.files().size(), 3u);  // the scene's two and the picture
 }
 
 TEST_F(Headless, SameCommandSameBytes) {
@@ -107,7 +96,7 @@ TEST_F(Headless, CamerasFromFilesAndPaths) {
 }
 
 TEST_F(Headless, UnusualUnitsAreFitted) {
-    writeSmallScene(m_folder, 1000.0f);
+    writeSmallScene(m_folder.path(), 1000.0f);
     const Ran large = shoot("large.png", {});
     EXPECT_EQ(large.code, 0) << large.err;
     EXPECT_NE(large.err.find("times its size"), std::string::npos) << large.err;

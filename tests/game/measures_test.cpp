@@ -38,21 +38,16 @@ Table tableOf(const fs::path& file) {
     return table;
 }
 
-class LiveMeasures : public testing::Test {
+class LiveMeasures : public SmallSceneTest {
 protected:
     void SetUp() override {
-        m_folder = freshFolder("measures");
-        m_scene = writeSmallScene(m_folder).string();
         m_path = (m_folder / "flown.path.json").string();
         std::ofstream(m_path) << nlohmann::json{{"scene", m_scene}, {"loop", false}, {"duration", 0.2},
             {"keys", {{{"time", 0.3}, {"eye", {3, 2, 3}}, {"target", {0, 0, 0}}},
                          {{"time", 0.5}, {"eye", {2.5, 2.2, 3}}, {"target", {0, 0, 0}}}}}};
         ::setenv("OBSCURA_CACHE", (m_folder / "cache").c_str(), 1);
     }
-    void TearDown() override {
-        ::unsetenv("OBSCURA_CACHE");
-        fs::remove_all(m_folder);
-    }
+    void TearDown() override { ::unsetenv("OBSCURA_CACHE"); }
     Ran play(const std::string& out, std::vector<std::string> more) {
         std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--falloff", "quadratic:1", "--view", "visibility",
             "--measure", "--out", (m_folder / out).string()};
@@ -62,8 +57,7 @@ protected:
         return ran;
     }
     Table measures(const std::string& out) const { return tableOf(m_folder / out / "measures.csv"); }
-    fs::path m_folder;
-    std::string m_scene, m_path;
+    std::string m_path;
 };
 
 TEST_F(LiveMeasures, AgreeWithTheFlythroughTool) {

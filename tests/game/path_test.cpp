@@ -13,10 +13,8 @@
 namespace obscura::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 TEST(Recorder, RecordsAtMostOneKeyAFrameAndRoundTrips) {
-    const fs::path folder = freshFolder("recorder");
+    const TemporaryFolder folder;
     game::Recorder recorder;
     recorder.start("toasters");
     scene::Camera camera;
@@ -47,7 +45,6 @@ TEST(Recorder, RecordsAtMostOneKeyAFrameAndRoundTrips) {
     }
     // The replayed curve passes through the recorded positions.
     for (const scene::CameraPath::Key& key : path.keys) EXPECT_LT(glm::length(path.at(key.time).eye - key.eye), 1e-4f);
-    fs::remove_all(folder);
 }
 
 TEST(Recorder, ReplayShowsFirstAndLastKey) {
@@ -62,17 +59,14 @@ TEST(Recorder, ReplayShowsFirstAndLastKey) {
     EXPECT_EQ(game::replayFrames(path, 2.0f), 30u);
 }
 
-class Replay : public testing::Test {
+class Replay : public SmallSceneTest {
 protected:
     void SetUp() override {
-        m_folder = freshFolder("replay");
-        m_scene = writeSmallScene(m_folder).string();
         m_path = (m_folder / "flown.path.json").string();
         std::ofstream(m_path) << nlohmann::json{{"name", "flown"}, {"scene", m_scene}, {"loop", false}, {"duration", 0.2},
             {"keys",
                 {{{"time", 0.3}, {"eye", {4, 2, 4}}, {"target", {0, 0, 0}}}, {{"time", 0.5}, {"eye", {3, 3, 5}}, {"target", {0, 0, 0}}}}}};
     }
-    void TearDown() override { fs::remove_all(m_folder); }
     Ran fly(const std::string& out, std::vector<std::string> more = {}) {
         std::vector<std::string> arguments{
             "--headless", "--scene", m_scene, "--size", "96x54", "--path", m_path, "--out", (m_folder / out).string()};
@@ -80,8 +74,7 @@ protected:
         return run(arguments);
     }
     std::string frame(const std::string& out, int i) { return bytesOf(m_folder / out / ("frame_000" + std::to_string(i) + ".png")); }
-    fs::path m_folder;
-    std::string m_scene, m_path;
+    std::string m_path;
 };
 
 TEST_F(Replay, IsDeterministicAndComplete) {

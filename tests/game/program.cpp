@@ -14,6 +14,8 @@
 #define STBI_ONLY_PNG
 #include <stb_image.h>
 
+#include "../temporary_folder.h"
+
 namespace obscura::test {
 
 namespace fs = std::filesystem;
@@ -25,15 +27,8 @@ std::string bytesOf(const fs::path& file) {
     return text.str();
 }
 
-fs::path freshFolder(const std::string& name) {
-    const fs::path folder = fs::temp_directory_path() / ("obscura-game-" + name + "-" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
-
 Ran run(const std::vector<std::string>& arguments, const char* program) {
-    const fs::path folder = freshFolder("run");
+    const TemporaryFolder folder;
     const fs::path out = folder / "out", err = folder / "err";
     std::vector<char*> argv{const_cast<char*>(program)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -44,15 +39,13 @@ Ran run(const std::vector<std::string>& arguments, const char* program) {
         ::dup2(::open(err.c_str(), O_CREAT | O_WRONLY, 0644), STDERR_FILENO);
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
-        ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+        ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
         ::execv(program, argv.data());
         ::_exit(127);
     }
     int status = 0;
     ::waitpid(child, &status, 0);
-    Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), bytesOf(out), bytesOf(err)};
-    fs::remove_all(folder);
-    return ran;
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), bytesOf(out), bytesOf(err)};
 }
 
 Decoded decodePng(const fs::path& file) {

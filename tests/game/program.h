@@ -14,9 +14,6 @@ struct Ran {
 // Runs the game, or another program, without a display, with its own cache folder unless OBSCURA_CACHE is set.
 Ran run(const std::vector<std::string>& arguments, const char* program = OBSCURA_GAME);
 
-// Creates an empty folder for one test.
-std::filesystem::path freshFolder(const std::string& name);
-
 struct Decoded {
     int width = 0, height = 0;
     std::vector<unsigned char> rgb;  // empty: incomplete PNG

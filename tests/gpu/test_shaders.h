@@ -9,32 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include "../temporary_folder.h"
 #include "gpu/compiler/compile.h"
 #include "gpu/shader.h"
 
 namespace obscura::test {
-
-// An empty temporary folder, removed with the object.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-        for (int i = 0; m_path.empty(); ++i) {
-            const std::filesystem::path path =
-                std::filesystem::path(testing::TempDir()) / ("obscura-" + std::to_string(now) + "-" + std::to_string(i));
-            if (std::filesystem::create_directories(path)) m_path = path;
-        }
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(m_path, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return m_path; }
-
-private:
-    std::filesystem::path m_path;
-};
 
 class TestShaders {
 public:
@@ -48,11 +27,12 @@ public:
         std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++m_writes));
     }
 
-    gpu::Shader compile(const std::string& name) {
+    // `includes`: where included files are looked for; empty: in root().
+    gpu::Shader compile(const std::string& name, const std::filesystem::path& includes = {}) {
         gpu::Shader shader;
         std::string error;
         std::vector<std::filesystem::path> files;
-        EXPECT_TRUE(gpu::compileShader(root(), name, shader, error, files)) << error;
+        EXPECT_TRUE(gpu::compileShader(includes.empty() ? root() : includes, (root() / name).string(), shader, error, files)) << error;
         return shader;
     }
 
@@ -65,9 +45,9 @@ public:
     }
 
     // Writes a shader, compiles it and adds it to the library like an embedded one.
-    void add(const std::string& name, const std::string& text) {
+    void add(const std::string& name, const std::string& text, const std::filesystem::path& includes = {}) {
         write(name, text);
-        const gpu::Shader shader = compile(name);
+        const gpu::Shader shader = compile(name, includes);
         const std::string reflection = describe(shader);
         const gpu::EmbeddedShader embedded{name.c_str(), shader.spirv, reflection.c_str()};
         library.add({&embedded, 1});

@@ -1,48 +1,29 @@
 // The stored analytic scenes end to end, from triangles to voxels to visibility, against references ray-traced in the world: off-screen
 // occluders increase no method's error. Skipped without the folder of references.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <map>
 
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include "evaluate/stored_scene.h"
 
-#include "../shell.h"
-
+namespace obscura::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Error {
     double eA = -1.0, bias = 0.0;
 };
 
 // Errors by method; `settings` as on the command line.
-std::map<std::string, Error> errors(const fs::path& folder, const std::string& scene, const std::string& settings) {
-    const fs::path result = fs::path(testing::TempDir()) / ("obscura-offscreen-" + scene + ".json");
-    const std::string command =
-        obscura::test::shellCommand(
-            "{} --scene {} --camera scene:0 --size 320x180 --falloff quadratic:2 --reference {} --channel world.quadratic_2"
-            " --frames 1 --warm-up 0 --json {} ",
-            OBSCURA_EVALUATE, folder / (scene + ".glb"), folder / (scene + ".reference.exr"), result) +
-        settings;
-    const obscura::test::Ended ended = obscura::test::runShell(command);
-    EXPECT_EQ(ended.code, 0) << command << "\n" << ended.error;
+std::map<std::string, Error> errors(const std::string& scene, const std::string& settings) {
     std::map<std::string, Error> list;
-    for (const nlohmann::json& row : nlohmann::json::parse(std::ifstream(result))) list[row.at("method")] = {row.at("eA"), row.at("bias")};
-    fs::remove(result);
+    for (const nlohmann::json& row :
+        evaluateStoredScene(scene, "--falloff quadratic:2 --channel world.quadratic_2 --warm-up 0 " + settings))
+        list[row.at("method")] = {row.at("eA"), row.at("bias")};
     return list;
 }
 
 void expectNoWorse(const std::string& scene) {
-    const char* named = std::getenv("OBSCURA_ORACLE");
-    const fs::path folder = named && *named ? fs::path(named) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle";
-    if (!fs::exists(folder / (scene + ".glb")))
-        GTEST_SKIP() << "no " << folder / (scene + ".glb") << "; set OBSCURA_ORACLE to the stored references";
     const std::string methods =
         "--method hbao,multi_resolution,horizon_split,statistical,far_field --set far_field.thickness=0.1 --set far_field.averaging=none";
-    const auto alone = errors(folder, scene, methods), hidden = errors(folder, scene, methods + " --offscreen hidden");
+    const auto alone = errors(scene, methods), hidden = errors(scene, methods + " --offscreen hidden");
     ASSERT_EQ(alone.size(), 5u);
     for (const auto& [method, error] : alone) {
         const Error& both = hidden.at(method);
@@ -61,3 +42,4 @@ TEST(OffScreenOracle, cornerIsNoWorse) { expectNoWorse("corner"); }
 TEST(OffScreenOracle, atriumIsNoWorse) { expectNoWorse("atrium"); }
 
 }  // namespace
+}  // namespace obscura::test

@@ -9,12 +9,13 @@
 #include <glm/gtc/packing.hpp>
 
 #include "graph/executor.h"
+#include "graph/read_back.h"
 #include "obscura/ao.h"
 
 namespace obscura::test {
 namespace {
 
-// Copies an image of the graph into a host-visible buffer when the graph executes.
+// An image of the graph, copied when the graph executes.
 struct Readback {
     gpu::Buffer buffer;
     Pixels* target = nullptr;
@@ -26,19 +27,8 @@ void copyOut(graph::Graph& graph, graph::ImageId image, Readback& back, Pixels& 
     target.height = desc.height;
     target.bytes.resize(size_t(desc.width) * desc.height * gpu::bytesPerTexel(desc.format));
     back.target = &target;
-    if (gpu::Buffer::create(graph.device(), target.bytes.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "readback",
-            back.buffer) != gpu::Status::ok)
-        throw std::runtime_error("no readback buffer");
-    const graph::BufferId to = graph.import("readback", back.buffer, graph::Graph::Shared::written);
-    const VkBuffer handle = back.buffer.handle();
-    const VkBufferImageCopy region{0, 0, 0, {gpu::aspectOf(desc.format), 0, 0, 1}, {}, {desc.width, desc.height, 1}};
-    graph.pass("read back")
-        .use(image, graph::Access::transferRead)
-        .use(to, graph::Access::transferWrite)
-        .keep()
-        .record([=](const graph::PassContext& c) {
-            c.device.vk().CmdCopyImageToBuffer(c.cmd, c.image(image), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, handle, 1, &region);
-        });
+    back.buffer = readBack(graph, image);
+    if (!back.buffer) throw std::runtime_error("no readback buffer");
 }
 
 }  // namespace

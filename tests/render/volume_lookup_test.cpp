@@ -43,22 +43,13 @@ class VolumeLookupTest : public GpuTest {
 protected:
     std::vector<uint32_t> ask(
         bool grid, const shared::Volume& block, std::span<const uint32_t> words, const std::vector<glm::vec4>& places) {
-        TestShaders files;  // in addition to the project's shaders
+        TestShaders shaders;
         std::string text = kLookups;
         if (grid) text.insert(text.find("#define"), "#define VOLUME_NANOVDB\n");
-        const std::filesystem::path root = std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders";
-        files.write("lookup.comp", text);
-        gpu::Shader shader;
-        std::string error;
-        std::vector<std::filesystem::path> read;
-        EXPECT_TRUE(gpu::compileShader(root, (files.root() / "lookup.comp").string(), shader, error, read)) << error;
-        if (!error.empty()) return {};
-        const std::string reflection = gpu::describe(shader);
-        const gpu::EmbeddedShader embedded{"lookup.comp", shader.spirv, reflection.c_str()};
-        gpu::ShaderLibrary shaders;
-        shaders.add(std::span(&embedded, 1));
+        shaders.add("lookup.comp", text, std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders");
+        if (HasFailure()) return {};
         gpu::Program program;
-        EXPECT_EQ(gpu::Program::compute(device(), shaders, "lookup.comp", {}, program), gpu::Status::ok);
+        EXPECT_EQ(gpu::Program::compute(device(), shaders.library, "lookup.comp", {}, program), gpu::Status::ok);
         graph::Graph graph(device());
         graph::Executor executor(device());
         device().nextFrame();

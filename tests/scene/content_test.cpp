@@ -11,9 +11,9 @@
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
+#include "../folders.h"
 #include "scene/gltf/gltf.h"
 #include "scene/world.h"
-#include "shared_folder.h"
 
 namespace obscura::scene::test {
 namespace {

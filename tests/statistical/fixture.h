@@ -78,16 +78,9 @@ void main() {
 
     // Compiles a shader that may include the project's shaders.
     void program(const std::string& name, const std::string& text, std::initializer_list<gpu::Constant> constants, gpu::Program& out) {
-        const std::filesystem::path file = m_folder.path() / name, root = std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders";
-        std::ofstream(file) << "#version 460\n#extension GL_GOOGLE_include_directive : require\n" << text;
-        gpu::Shader shader;
-        std::string error;
-        std::vector<std::filesystem::path> files;
-        ASSERT_TRUE(gpu::compileShader(root, file.string(), shader, error, files)) << error;
-        const std::string reflection = describe(shader);
-        const gpu::EmbeddedShader embedded{name.c_str(), shader.spirv, reflection.c_str()};
-        m_shaders.add({&embedded, 1});
-        ASSERT_EQ(gpu::Program::compute(m_device, m_shaders, name, constants, out), gpu::Status::ok);
+        m_testShaders.add(name, "#version 460\n#extension GL_GOOGLE_include_directive : require\n" + text,
+            std::filesystem::path(OBSCURA_SOURCE_DIR) / "shaders");
+        ASSERT_EQ(gpu::Program::compute(m_device, m_testShaders.library, name, constants, out), gpu::Status::ok);
     }
 
     gpu::Buffer back(uint64_t bytes) {
@@ -172,12 +165,12 @@ void main() {
 
     gpu::Device& m_device = device();
     gpu::ShaderLibrary m_shaders;
+    TestShaders m_testShaders;
     graph::Graph m_graph{m_device};
     graph::Executor m_executor{m_device};
     ao::Prepare m_prepare;
     ao::StatisticalTables m_tables;
     gpu::Program m_read, m_windows;
-    TemporaryFolder m_folder;
 };
 
 }  // namespace obscura::test

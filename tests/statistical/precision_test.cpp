@@ -2,8 +2,8 @@
 // frame named by OBSCURA_FRAME.
 #include <cstdlib>
 
+#include "ao/oracle.h"
 #include "statistical/fixture.h"
-#include "truth/captured_frame.h"
 
 namespace obscura::test {
 namespace {
@@ -12,8 +12,7 @@ namespace fs = std::filesystem;
 
 truth::CapturedFrame frameOfRecord() {
     if (const char* named = std::getenv("OBSCURA_FRAME"); named && *named) return truth::readCapture(named);
-    const char* folder = std::getenv("OBSCURA_ORACLE");
-    const fs::path stem = (folder && *folder ? fs::path(folder) : fs::path(OBSCURA_SOURCE_DIR) / ".." / "shared" / "oracle") / "sponza_a";
+    const fs::path stem = oracleFolder() / "sponza_a";
     if (!fs::exists(stem.string() + ".json"))
         skip("no " + stem.string() + ".json; set OBSCURA_ORACLE to the stored references or OBSCURA_FRAME to a captured frame");
     return truth::readCapture(stem);
@@ -21,15 +20,8 @@ truth::CapturedFrame frameOfRecord() {
 
 TEST_F(TablesTest, windowedHeightsAreExactToHalfAMillimetre) {
     const truth::CapturedFrame captured = frameOfRecord();
-    Room room;
-    room.width = captured.size.x;
-    room.height = captured.size.y;
-    room.depth = captured.depth;
-    for (const glm::vec3& n : captured.normals) room.normals.insert(room.normals.end(), {n.x, n.y, n.z, 0.0f});
-    ao::Frame frame = room.frame();
-    frame.guard = {captured.guard.x, captured.guard.y};
-    frame.skyDepth = captured.skyDepth;
-    std::memcpy(frame.projection, &captured.projection[0][0], sizeof(frame.projection));
+    ao::Frame frame;
+    const Room room = roomOf(captured, frame);
     const shared::View view = captured.view();
     const uint32_t w = room.width + 1;
     const auto position = [&](uint32_t x, uint32_t y) {

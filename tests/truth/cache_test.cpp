@@ -9,7 +9,7 @@ namespace {
 
 using namespace obscura;
 using namespace obscura::truth;
-using test::Scratch;
+using test::TemporaryFolder;
 
 struct Setting {
     test::Shapes shapes;
@@ -28,7 +28,7 @@ struct Setting {
 };
 
 TEST(Cache, findsStoredReferences) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const Setting setting;
     std::vector<std::string> lines;
     ReferenceCache cache(scratch / "deep/er", [&](const std::string& line) { lines.push_back(line); });
@@ -53,7 +53,7 @@ TEST(Cache, findsStoredReferences) {
 TEST(Cache, damagedFilesAreReplacedWithALogLine) {
     const Setting setting;
     for (const int damage : {0, 1, 2}) {
-        const Scratch scratch;
+        const TemporaryFolder scratch;
         std::vector<std::string> lines;
         ReferenceCache cache(scratch.path(), [&](const std::string& line) { lines.push_back(line); });
         const Reference fresh = cache.get(setting.key(), [&] { return setting.make(); });
@@ -77,7 +77,7 @@ TEST(Cache, damagedFilesAreReplacedWithALogLine) {
 }
 
 TEST(Cache, unwritableFolderIsReportedOnce) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     test::writeText(scratch / "file", "in the way");
     const Setting setting;
     int lines = 0, made = 0;
@@ -91,10 +91,10 @@ TEST(Cache, unwritableFolderIsReportedOnce) {
 }
 
 TEST(Cache, stoppedTraceLeavesNoFile) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     ReferenceCache cache(scratch.path());
     test::expectError([&] { cache.get("key", []() -> Reference { throw scene::Error("stopped"); }); }, "stopped");
-    EXPECT_EQ(scratch.files(), 0u);
+    EXPECT_EQ(scratch.files().size(), 0u);
 }
 
 TEST(Cache, keyCoversAllInputs) {
@@ -133,7 +133,7 @@ TEST(Cache, keyCoversAllInputs) {
 }
 
 TEST(Cache, notedReferenceIsFoundByItsViewKey) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const Setting setting;
     ReferenceCache cache(scratch.path());
     EXPECT_FALSE(cache.find("view-none"));

@@ -13,7 +13,7 @@ namespace {
 using namespace obscura;
 using namespace obscura::truth;
 using test::expectError;
-using test::Scratch;
+using test::TemporaryFolder;
 
 // A tilted plane with a strip of sky, camera in the world.
 CapturedFrame sample() {
@@ -45,10 +45,10 @@ void replaceIn(const std::filesystem::path& file, const std::string& from, const
 }
 
 TEST(Capture, roundTrips) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const CapturedFrame frame = sample();
     writeCapture(scratch / "view", frame);
-    EXPECT_EQ(scratch.files(), 2u);
+    EXPECT_EQ(scratch.files().size(), 2u);
     for (const char* name : {"view", "view.json", "view.capture.exr"}) {
         const CapturedFrame back = readCapture(scratch / name);
         EXPECT_EQ(back.size, frame.size);
@@ -73,7 +73,7 @@ TEST(Capture, positionsLieOnThePlane) {
 }
 
 TEST(Capture, deviceDepthAndWorldNormalsGiveTheSameFrame) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const CapturedFrame frame = sample();
     writeCapture(scratch / "view", frame);
     // A conventional projection: depth 0 near, 1 at 50 m, y up.
@@ -111,7 +111,7 @@ TEST(Capture, deviceDepthAndWorldNormalsGiveTheSameFrame) {
 }
 
 TEST(Capture, missingNormalsCanBeReconstructed) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     CapturedFrame frame = sample();
     const std::vector<glm::vec3> normals = frame.normals;
     frame.normals.clear();
@@ -128,7 +128,7 @@ TEST(Capture, missingNormalsCanBeReconstructed) {
 
 TEST(Capture, everyMissingFieldIsNamed) {
     for (const char* field : {"verticalFovDegrees", "visible", "guardBand", "near", "target"}) {
-        const Scratch scratch;
+        const TemporaryFolder scratch;
         writeCapture(scratch / "view", sample());
         replaceIn(scratch / "view.json", fmt::format("\"{}\"", field), "\"other\"");
         expectError([&] { readCapture(scratch / "view"); }, fmt::format("\"{}\" is missing", field));
@@ -136,7 +136,7 @@ TEST(Capture, everyMissingFieldIsNamed) {
 }
 
 TEST(Capture, invalidValuesAreNamedWithTheirPixel) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     const auto expectBad = [&](const char* channel, float value, const std::string& part) {
         writeCapture(scratch / "view", sample());
         Picture picture = readExr(scratch / "view.capture.exr");
@@ -153,7 +153,7 @@ TEST(Capture, invalidValuesAreNamedWithTheirPixel) {
 }
 
 TEST(Capture, invalidFilesGiveActionableErrors) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     expectError([&] { readCapture(scratch / "none"); }, "none.json: is missing");
     writeCapture(scratch / "view", sample());
     replaceIn(scratch / "view.json", "32,", "33,");
@@ -179,11 +179,11 @@ TEST(Capture, invalidFilesGiveActionableErrors) {
 }
 
 TEST(Capture, invalidFramesAreNotWritten) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     CapturedFrame frame = sample();
     frame.depth[5] = std::nanf("");
     expectError([&] { writeCapture(scratch / "view", frame); }, "Z is nan");
-    EXPECT_EQ(scratch.files(), 0u);
+    EXPECT_EQ(scratch.files().size(), 0u);
 }
 
 }  // namespace

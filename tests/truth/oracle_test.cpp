@@ -2,8 +2,8 @@
 // named by OBSCURA_ORACLE; without it these tests are skipped.
 #include <ctime>
 
+#include "folders.h"
 #include "gpu/test_device.h"
-#include "shared_folder.h"
 #include "truth/screen_reference.h"
 #include "truth/world_reference.h"
 

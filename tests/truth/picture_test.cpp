@@ -8,7 +8,7 @@ namespace {
 
 using namespace obscura::truth;
 using obscura::test::expectError;
-using obscura::test::Scratch;
+using obscura::test::TemporaryFolder;
 
 Picture sample() {
     Picture picture;
@@ -21,9 +21,9 @@ Picture sample() {
 }
 
 TEST(Picture, roundTripsExactly) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     writeExr(scratch / "a.exr", sample());
-    EXPECT_EQ(scratch.files(), 1u);
+    EXPECT_EQ(scratch.files().size(), 1u);
     const Picture back = readExr(scratch / "a.exr");
     ASSERT_EQ(back.channels.size(), 3u);
     for (const auto& channel : sample().channels) EXPECT_EQ(back.plane(channel.name).values, channel.values) << channel.name;
@@ -34,14 +34,14 @@ TEST(Picture, roundTripsExactly) {
 }
 
 TEST(Picture, missingChannelIsNamedWithTheExistingOnes) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     writeExr(scratch / "a.exr", sample());
     expectError([&] { readExr(scratch / "a.exr", {"Z", "N.Y"}); }, "channel N.Y is missing; there are N.X, Z, world.quadratic_2");
     expectError([&] { sample().plane("R"); }, "no channel \"R\"");
 }
 
 TEST(Picture, everyTruncationIsAnError) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     writeExr(scratch / "a.exr", sample());
     const std::string bytes = obscura::test::readText(scratch / "a.exr");
     ASSERT_GT(bytes.size(), 1000u);
@@ -53,7 +53,7 @@ TEST(Picture, everyTruncationIsAnError) {
 
 // A block with wrong line numbers would leave other lines unset.
 TEST(Picture, misplacedLinesAreAnError) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     writeExr(scratch / "a.exr", sample());
     std::string bytes = obscura::test::readText(scratch / "a.exr");
     // Two blocks of lines: their offset table ends where the first block begins.
@@ -71,7 +71,7 @@ TEST(Picture, misplacedLinesAreAnError) {
 }
 
 TEST(Picture, damageNeverCrashes) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     writeExr(scratch / "a.exr", sample());
     const std::string bytes = obscura::test::readText(scratch / "a.exr");
     uint32_t random = 1;
@@ -91,19 +91,19 @@ TEST(Picture, damageNeverCrashes) {
 }
 
 TEST(Picture, wrongFileTypesAreNamed) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     expectError([&] { readExr(scratch / "none.exr"); }, "is missing");
     obscura::test::writeText(scratch / "text.exr", "not a picture");
     expectError([&] { readExr(scratch / "text.exr"); }, "is not an OpenEXR file");
 }
 
 TEST(Picture, failedWriteKeepsTheOldFile) {
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     expectError([&] { writeExr(scratch / "no_folder/a.exr", sample()); }, "cannot be written");
     std::filesystem::create_directory(scratch / "taken");
     expectError([&] { writeExr(scratch / "taken", sample()); }, "cannot be replaced");
     expectError([&] { writeExr(scratch / "empty.exr", Picture{}); }, "nothing to write");
-    EXPECT_EQ(scratch.files(), 1u);
+    EXPECT_EQ(scratch.files().size(), 1u);
 }
 
 }  // namespace

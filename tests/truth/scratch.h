@@ -1,4 +1,4 @@
-// Fixture: a temporary folder for one test, and a check that an error is one line with the expected text.
+// Fixture: text files in a temporary folder, and a check that an error is one line with the expected text.
 #pragma once
 
 #include <filesystem>
@@ -7,30 +7,11 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "../temporary_folder.h"
 #include "scene/gltf/gltf.h"
 
 namespace obscura::test {
-
-class Scratch {
-public:
-    Scratch() {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        m_path = std::filesystem::temp_directory_path() / ("obscura_truth_" + std::to_string(::getpid()) + "_" + info->name());
-        std::filesystem::create_directories(m_path);
-    }
-    ~Scratch() {
-        std::error_code error;
-        std::filesystem::remove_all(m_path, error);
-    }
-    const std::filesystem::path& path() const { return m_path; }
-    std::filesystem::path operator/(const char* name) const { return m_path / name; }
-    size_t files() const { return size_t(std::distance(std::filesystem::directory_iterator(m_path), {})); }
-
-private:
-    std::filesystem::path m_path;
-};
 
 inline std::string readText(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);

@@ -49,7 +49,7 @@ TEST(VoxelWork, sponzaIsRasterisedOnce) {
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
     scene::World world;
     world.add({.model = scene::loadGltf(file, {.loadImages = false})});
-    Folder folder;
+    TemporaryFolder folder;
     size_t cells[2] = {};
     for (const bool again : {false, true}) {
         voxel::Voxels voxels({.cells = 256, .cache = folder.path()});

@@ -11,7 +11,7 @@ namespace {
 using voxel::Resting;
 
 struct Kept : testing::Test {
-    Folder folder;
+    TemporaryFolder folder;
     std::vector<std::string> lines;
     std::shared_ptr<scene::Model> model = modelOf(randomSoup(3000, 4.0f, 0.8f));
 

@@ -8,11 +8,11 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "../folders.h"
+#include "../temporary_folder.h"
 #include "scene/gltf/gltf.h"
 #include "scene/world.h"
-#include "shared_folder.h"
 #include "voxel/bricks.h"
 #include "voxel/rasterise.h"
 
@@ -69,28 +69,5 @@ inline Cells cellsOf(const voxel::BrickSet& bricks) {
                         cells.insert({bricks.place(i).x * 8 + x, bricks.place(i).y * 8 + y, bricks.place(i).z * 8 + z});
     return cells;
 }
-
-// A temporary folder for one test.
-class Folder {
-public:
-    Folder() {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        m_path = std::filesystem::temp_directory_path() / ("obscura_voxel_" + std::to_string(::getpid()) + "_" + info->name());
-        std::filesystem::create_directories(m_path);
-    }
-    ~Folder() {
-        std::error_code error;
-        std::filesystem::remove_all(m_path, error);
-    }
-    const std::filesystem::path& path() const { return m_path; }
-    std::vector<std::filesystem::path> files() const {
-        std::vector<std::filesystem::path> found;
-        for (const auto& entry : std::filesystem::directory_iterator(m_path)) found.push_back(entry.path());
-        return found;
-    }
-
-private:
-    std::filesystem::path m_path;
-};
 
 }  // namespace obscura::test

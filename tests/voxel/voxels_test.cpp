@@ -159,7 +159,7 @@ private:
 
 // While the worker is blocked reading the cache file, calls return without changes. The game prints their waiting time when it ends.
 TEST(Voxels, latestNeverWaitsForABuild) {
-    Folder folder;
+    TemporaryFolder folder;
     scene::World world;
     world.add({.model = modelOf(randomSoup(4000, 3.0f, 0.3f))});
     voxel::Options options = small();

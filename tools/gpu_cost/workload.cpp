@@ -58,13 +58,16 @@ Workload workloadOf(gpu::Device& device, const gpu::ShaderLibrary& shaders, cons
     if (!graph.resolve()) throw app::Complaint(fmt::format("{}: its passes contradict their shaders", values.info().id), app::kFailed);
     Workload load{width, height, {}};
     for (const graph::Plan::Step& step : graph::plan(graph.recording()).steps) {
-        const graph::Pass& pass = graph.pass(step.pass);
+        const graph::Pass& pass = graph.declared(step.pass);
         if (!pass.program()) continue;
         PassLoad one{graph.recording().passes[step.pass].name, pass.program()->shader(), pass.program()->specialization(), {}, 1, 0};
-        one.constants.assign(pass.pushConstants().begin(), pass.pushConstants().end());
-        for (int axis = 0; axis < 3; ++axis) one.invocations *= uint64_t(pass.groups()[axis]) * pass.program()->workgroup()[axis];
-        for (const uint32_t resource : pass.bindings()) {
-            const graph::Resource& r = graph.recording().resources[resource];
+        one.constants.assign(pass.constants().begin(), pass.constants().end());
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const uint32_t group = pass.program()->workgroup()[axis];
+            one.invocations *= (pass.invocations()[axis] + group - 1) / group * group;
+        }
+        for (const graph::Use& use : graph.recording().passes[step.pass].uses) {
+            const graph::Resource& r = graph.recording().resources[use.resource];
             one.bytes += r.isBuffer ? r.bytes : uint64_t(r.desc.width) * r.desc.height * gpu::bytesPerTexel(r.desc.format);
         }
         load.passes.push_back(std::move(one));

@@ -35,42 +35,63 @@
 
 namespace obscura::ao {
 
-enum class Status : uint8_t { ok, invalid, unsupported, outOfMemory, deviceLost, shaderError };
+// What became of a call; a log line says why it failed.
+enum class Status : uint8_t {
+    ok,           // done
+    invalid,      // an argument breaks this header's contract
+    unsupported,  // the device cannot do it
+    outOfMemory,  // host or device memory
+    deviceLost,   // VK_ERROR_DEVICE_LOST
+    shaderError,  // a pipeline cannot be made
+};
 
 // A view of `count` items, owned by whoever made it.
 template <class T> struct List {
-    const T* items = nullptr;
-    size_t count = 0;
-    const T* begin() const { return items; }
-    const T* end() const { return items + count; }
-    size_t size() const { return count; }
-    const T& operator[](size_t i) const { return items[i]; }
+    const T* items = nullptr;                                 // the first
+    size_t count = 0;                                         // how many
+    const T* begin() const { return items; }                  // the first, for range-based loops
+    const T* end() const { return items + count; }            // behind the last
+    size_t size() const { return count; }                     // how many
+    const T& operator[](size_t i) const { return items[i]; }  // i below count
 };
 
 // ---- Methods, parameters, presets -----------------------------------------------------------------------------------
 
+// A parameter of a method.
 struct Parameter {
-    const char* id;                   // "directions"
-    const char* unit;                 // "m", "px"; "" for counts and ratios
-    float minimum, maximum, initial;  // in `unit`; both ends included
-    bool integer;                     // whole numbers only
-    List<const char*> choices;        // names of the values 0..count-1; empty for plain numbers
-    const char* sentence;             // what it does, what it costs, what fails first when it is too low
+    const char* id;             // "directions"
+    const char* unit;           // "m", "px"; "" for counts and ratios
+    float minimum;              // in `unit`, included
+    float maximum;              // in `unit`, included
+    float initial;              // in `unit`
+    bool integer;               // whole numbers only
+    List<const char*> choices;  // names of the values 0..count-1; empty for plain numbers
+    const char* sentence;       // what it does, what it costs, what fails first when it is too low
 };
 
+// A value of a parameter.
 struct Setting {
     const char* id;  // of a Parameter
     float value;     // in the parameter's unit; a choice by its number
 };
 
+// Settings of a method under a name.
 struct Preset {
     const char* id;          // "default" is the first of every method
     const char* sentence;    // what it is good for
     List<Setting> settings;  // replace the parameters' initial values
 };
 
-enum Needs : uint32_t { kDepth = 1, kNormals = 2, kMotion = 4, kLayers = 8, kVolume = 16 };
+// Inputs of a method, as bits.
+enum Needs : uint32_t {
+    kDepth = 1,    // Frame::depth
+    kNormals = 2,  // Frame::normals
+    kMotion = 4,   // Frame::motion
+    kLayers = 8,   // Frame::layers
+    kVolume = 16,  // Frame::volume
+};
 
+// A method: what it is, what it reads and what can be set.
 struct MethodInfo {
     const char* id;              // "hbao"
     const char* title;           // "Horizon-based ambient occlusion"
@@ -84,17 +105,17 @@ struct MethodInfo {
 
 // All methods, in the order of keys and menus. Static storage.
 OBSCURA_API List<const MethodInfo*> methods();
-OBSCURA_API const MethodInfo* findMethod(const char* id);  // null if there is none of that name
+OBSCURA_API const MethodInfo* findMethod(const char* id);  // by its id; null if there is none
 
 // How a method's noise is removed: "raw" (not at all), "spatial" (its own blur), "temporal" (its blur and reprojected history). Each is a
 // few settings that replace the preset's; a method takes those that it has parameters for. Unrelated to multisample resolves. Static
 // storage.
 OBSCURA_API List<Preset> resolvePresets();
-OBSCURA_API const Preset* findResolvePreset(const char* id);  // null if there is none of that name
+OBSCURA_API const Preset* findResolvePreset(const char* id);  // by its id; null if there is none
 
 // ---- Falloff: how much an occluder counts by its distance -----------------------------------------------------------
 
-// With x = distance / length:
+// The curve, with x = distance / length.
 enum class FalloffKind : uint32_t {
     exponential,  // exp(-x)
     linear,       // 1 - x, 0 from length on
@@ -104,6 +125,7 @@ enum class FalloffKind : uint32_t {
     ramp,         // 1 up to length, linear to 0 at `end`
 };
 
+// How much an occluder counts at its distance: a curve and its lengths.
 struct Falloff {
     FalloffKind kind = FalloffKind::quadratic;  // the curve
     float length = 2.0f;                        // metres, above 0
@@ -119,17 +141,29 @@ OBSCURA_API float reach(const Falloff& falloff);                     // metres f
 
 // ---- Context --------------------------------------------------------------------------------------------------------
 
-enum class Severity : uint8_t { info, warning, error };
-enum class VisibilityFormat : uint8_t { r16f, r8 };  // VK_FORMAT_R16_SFLOAT; VK_FORMAT_R8_UNORM, rounded to the nearest of 256 values
+// The level of a log line.
+enum class Severity : uint8_t {
+    info,     // what was done
+    warning,  // it works, but not as asked
+    error,    // a call failed
+};
 
-// Device memory from your own pools. The callbacks are called from create(), setMethod(), record() and destroy(), on their thread, and must
-// not throw. Set both or neither.
+// The format of the image that record() returns.
+enum class VisibilityFormat : uint8_t {
+    r16f,  // VK_FORMAT_R16_SFLOAT
+    r8,    // VK_FORMAT_R8_UNORM, rounded to the nearest of 256 values
+};
+
+// A block of one of your memory pools.
 struct MemoryBlock {
     VkDeviceMemory memory = VK_NULL_HANDLE;  // yours
     uint64_t offset = 0;                     // bytes, a multiple of the requested alignment
     void* mapped = nullptr;                  // if requested: address of the block's first byte, valid until free()
     void* token = nullptr;                   // yours; passed back to free()
 };
+
+// Device memory from your own pools. The callbacks are called from create(), setMethod(), record() and destroy(), on their thread, and must
+// not throw. Set both or neither.
 struct MemoryCallbacks {
     // Fills `block` with needs.size bytes of any type in needs.memoryTypeBits (if `mapped`, that mask holds host-coherent types only).
     // `image`: for an image of optimal tiling, else for a buffer; bufferImageGranularity is yours to keep. Returns VK_SUCCESS or an error.
@@ -138,9 +172,9 @@ struct MemoryCallbacks {
     void* user = nullptr;                                          // passed to both
 };
 
+// Your device. All handles are yours and stay valid until destroy().
 struct DeviceDesc {
-    // Vulkan 1.3. All handles are yours and stay valid until destroy().
-    VkInstance instance = VK_NULL_HANDLE;
+    VkInstance instance = VK_NULL_HANDLE;              // Vulkan 1.3
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;  // of `device`
     VkDevice device = VK_NULL_HANDLE;  // with the features synchronization2, maintenance4 and shaderStorageImageExtendedFormats enabled
     uint32_t queueFamily = 0;          // of the command buffers given to record(); supports compute
@@ -154,22 +188,25 @@ struct DeviceDesc {
     void* logUser = nullptr;                                                 // passed to log()
 };
 
-struct Context;                                                                 // opaque
+// A device and the method set on it; opaque.
+struct Context;
 OBSCURA_API Status create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
 OBSCURA_API void destroy(Context* context) noexcept;  // before the device, after the GPU has finished its frames; null is ignored
 
-// Selects the method of the next record() and makes its pipelines. Unknown ids are Status::invalid, with a log line that lists the known
-// ones; values out of range are clamped. On failure the method set before stays.
+// What setMethod() sets.
 struct MethodSettings {
     const char* preset = "default";  // of the method
     List<Setting> settings;          // replace those of preset and resolve
     Falloff falloff;                 // by which every method counts occluders
     const char* resolve = nullptr;   // of resolvePresets(), replaces settings of the preset; null: as the preset says
 };
+// Selects the method of the next record() and makes its pipelines. Unknown ids are Status::invalid, with a log line that lists the known
+// ones; values out of range are clamped. On failure the method set before stays.
 OBSCURA_API Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
 
 // ---- Frames ---------------------------------------------------------------------------------------------------------
 
+// An input image.
 struct ImageView {
     VkImage image = VK_NULL_HANDLE;                    // yours; valid until the GPU has finished the frame
     VkImageView view = VK_NULL_HANDLE;                 // 2D, mip 0; of depth formats the depth aspect only
@@ -177,23 +214,35 @@ struct ImageView {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // on entry and on return; not UNDEFINED
 };
 
-enum class DepthKind : uint8_t { device, linear };  // the value in the depth buffer; distance along the view axis, -z, metres
-enum class NormalKind : uint8_t { eye, world };     // the space of normals
+// What a depth image holds.
+enum class DepthKind : uint8_t {
+    device,  // the value in the depth buffer
+    linear,  // distance along the view axis, -z, metres
+};
+
+// The space of normals.
+enum class NormalKind : uint8_t {
+    eye,    // as at the head of this file
+    world,  // that of Frame::eyeFromWorld
+};
+
+// How a texel holds a normal.
 enum class NormalEncoding : uint8_t {
     signedFloat,   // xyz
     biased,        // xyz * 0.5 + 0.5
     octahedral32,  // two snorm16 of an octahedral map, in one uint
 };
 
-// The world as bits, 1 where a cell touches surface (conservative: every cell that a triangle touches), for methods with kVolume. Two
-// structures:
-//
-// dense: a cube of cells, anchored in the world. Cell (x, y, z) counts from a fixed point. The buffer holds the cells from `origin` on,
-// each at its coordinates modulo `cells`, so that moving the cube rewrites only the cells that enter. A brick has 8 cells a side and 16
-// words: a cell is bit 8 (y & 3) + (z & 7) of word 2 (x & 7) + ((y & 7) >> 2). Brick (X, Y, Z) = (x, y, z) / 8 modulo s begins at word 16
-// ((X s + Y) s + Z), with s = cells / 8. nanovdb: a NanoVDB grid of type mask whose index space counts cells in the same way, for worlds
-// that no cube covers.
-enum class VolumeStructure : uint8_t { dense, nanovdb };
+// How a buffer holds the cells of a Volume. Cell (x, y, z) counts from a fixed point of the world.
+enum class VolumeStructure : uint8_t {
+    // A cube of cells, anchored in the world. The buffer holds the cells from `origin` on, each at its coordinates modulo `cells`, so that
+    // moving the cube rewrites only the cells that enter. A brick has 8 cells a side and 16 words: a cell is bit 8 (y & 3) + (z & 7) of
+    // word 2 (x & 7) + ((y & 7) >> 2). Brick (X, Y, Z) = (x, y, z) / 8 modulo s begins at word 16 ((X s + Y) s + Z), with s = cells / 8.
+    dense,
+    nanovdb,  // a NanoVDB grid of type mask whose index space counts cells in the same way, for worlds that no cube covers
+};
+
+// The world as bits, 1 where a cell touches surface (conservative: every cell that a triangle touches), for methods with kVolume.
 struct Volume {
     VolumeStructure structure = VolumeStructure::dense;  // of `buffer`
     VkBuffer buffer = VK_NULL_HANDLE;                    // storage usage; null: no volume
@@ -207,14 +256,14 @@ struct Volume {
 // What lies behind the visible surface along each pixel's view ray, for methods with the parameter `depth_layers`, which says how much of
 // it they read. Both images are optional; `second` needs `thickness`. Linear depths, metres; sampled usage.
 struct DepthLayers {
-    ImageView
-        thickness;     // Frame::size, one float (R16F is enough): distance along the view axis from the visible surface to the end of the
-                       // solid behind it. 0: an open sheet, which gets the method's own thickness. 65504: endless
-    ImageView second;  // two floats (RG32F, RG16F): depth of the next surface behind that solid, 0 for none, and its thickness
+    // Frame::size, one float (R16F is enough): distance along the view axis from the visible surface to the end of the solid behind it.
+    // 0: an open sheet, which gets the method's own thickness. 65504: endless.
+    ImageView thickness;
+    ImageView second;         // two floats (RG32F, RG16F): depth of the next surface behind that solid, 0 for none, and its thickness
     VkExtent2D secondSize{};  // Frame::size, or half of it rounded up: then texel p belongs to pixel 2 p
 };
 
-// Images may be larger than `size`: their upper left part is read.
+// What record() reads. Images may be larger than `size`: their upper left part is read.
 struct Frame {
     VkExtent2D size{};          // px, of depth and normals, guard band included
     VkExtent2D guard{};         // px on each side that are read but not shown: visible = size - 2 guard. Multiples of 16 are fastest
@@ -239,8 +288,8 @@ struct Frame {
     uint64_t index = 0;             // frame number: with `temporal`, selects this frame's rotation of the samples. Add 1 each frame
 };
 
-// The image is the context's. It keeps its contents until framesInFlight more frames have been recorded; you may leave it in any layout.
-// (Bent normals would become a flag in MethodInfo and a second image here.)
+// What record() gives. The image is the context's. It keeps its contents until framesInFlight more frames have been recorded; you may
+// leave it in any layout. (Bent normals would become a flag in MethodInfo and a second image here.)
 struct Output {
     Status status = Status::invalid;    // not ok: nothing was recorded, the handles are null, a log line says why
                                         // (outOfMemory: some commands may have been recorded; discard the command buffer)
@@ -248,6 +297,7 @@ struct Output {
     VkImageView view = VK_NULL_HANDLE;  // 2D, one mip
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL; reads in any shader stage need no barrier
 };
+// Records the method's passes; the contract stands at the head of this file.
 OBSCURA_API Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept;
 
 OBSCURA_API uint64_t memoryUse(const Context* context) noexcept;  // bytes of device memory held
@@ -256,6 +306,7 @@ OBSCURA_API uint64_t memoryUse(const Context* context) noexcept;  // bytes of de
 // refuse.
 OBSCURA_API uint64_t memoryUse(Context* context, const Frame& frame) noexcept;
 
+// The GPU time of one pass.
 struct PassTime {
     const char* name;     // "hbao.horizons"
     double milliseconds;  // on the GPU
