@@ -137,7 +137,7 @@ List<PassTime> timings(Context* context) noexcept {
     guarded(own.log, [&] {
         own.timedNames.clear();
         own.timed.clear();
-        for (const graph::PassTime& pass : own.executor->timings().passes) own.timedNames.push_back(pass.name);
+        for (const gpu::PassTime& pass : own.executor->timings().passes) own.timedNames.push_back(pass.name);
         for (size_t i = 0; i < own.timedNames.size(); ++i)
             own.timed.push_back({own.timedNames[i].c_str(), own.executor->timings().passes[i].milliseconds});
         return Status::ok;

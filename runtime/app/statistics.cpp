@@ -26,7 +26,7 @@ void Statistics::add(const graph::Timings& timings) {
     m_last = timings.frame;
     push(m_gpu, timings.milliseconds);
     std::vector<Series> passes;
-    for (const graph::PassTime& time : timings.passes) {
+    for (const gpu::PassTime& time : timings.passes) {
         // A pass may be declared several times in a frame (mip chains): their times add up.
         const auto again = std::find_if(passes.begin(), passes.end(), [&](const Series& s) { return s.name == time.name; });
         if (again != passes.end()) {

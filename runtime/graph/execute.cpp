@@ -55,11 +55,11 @@ void Executor::run(const Recording& recording, VkCommandBuffer cmd, const Pass& 
 }
 
 const Timings& Executor::timings() {
-    std::vector<PassTime> passes;
+    std::vector<gpu::PassTime> passes;
     if (frame().number != m_device.frame()) m_deviceLost |= frame().timestamps.read(passes) == gpu::Status::deviceLost;
     if (passes.empty()) return m_timings;
     m_timings = {frame().number, std::move(passes), 0.0};
-    for (const PassTime& pass : m_timings.passes) m_timings.milliseconds += pass.milliseconds;
+    for (const gpu::PassTime& pass : m_timings.passes) m_timings.milliseconds += pass.milliseconds;
     return m_timings;
 }
 

@@ -146,7 +146,7 @@ Status Executor::makeSets(const Graph& graph, const Plan& plan) {
             const auto& [buffer, offset, bytes] = physical.buffer;
             VkDescriptorImageInfo image{VK_NULL_HANDLE, physical.mip(bound.firstMip), info(accessOf(binding)).layout};
             if (binding.kind == gpu::BindingKind::sampledImage) {
-                if (bound.mips == Pass::kAllMips) image.imageView = physical.view;
+                if (bound.mips == VK_REMAINING_MIP_LEVELS) image.imageView = physical.view;
                 image.sampler = m_device.sampler(bound.sampling);
                 if (!image.sampler) return Status::outOfMemory;  // the device has said so
             }

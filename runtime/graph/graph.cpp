@@ -27,7 +27,7 @@ Pass& Pass::attach(ImageId image, Access access, std::optional<VkClearValue> cle
 }
 
 Pass& Pass::use(ResourceId id, Access access, bool discard) {
-    m_desc.uses.push_back({id.index, 0, kAllMips, access, 0, discard});
+    m_desc.uses.push_back({id.index, 0, VK_REMAINING_MIP_LEVELS, access, 0, discard});
     return *this;
 }
 
@@ -42,10 +42,6 @@ void Pass::dispatch(uint32_t x, uint32_t y, uint32_t z) {
         const auto& [gx, gy, gz] = c.program->workgroup();
         c.device.vk().CmdDispatch(c.cmd, (x + gx - 1) / gx, (y + gy - 1) / gy, (z + gz - 1) / gz);
     };
-}
-
-void Pass::draw(uint32_t vertices, uint32_t instances) {
-    m_work = [vertices, instances](const PassContext& c) { c.device.vk().CmdDraw(c.cmd, vertices, instances, 0, 0); };
 }
 
 void Pass::record(Record record) {

@@ -24,7 +24,6 @@ struct ResourceId {
 struct ImageId : ResourceId {};
 struct BufferId : ResourceId {};
 
-using gpu::PassTime;
 using gpu::Sampling;
 
 // Part of a buffer from outside, written before and kept until the frame has left the GPU.
@@ -44,9 +43,9 @@ struct Physical {
 };
 
 struct Timings {
-    uint64_t frame = 0;            // the device's frame number these belong to
-    std::vector<PassTime> passes;  // in execution order
-    double milliseconds = 0.0;     // first to last timestamp
+    uint64_t frame = 0;                 // the device's frame number these belong to
+    std::vector<gpu::PassTime> passes;  // in execution order
+    double milliseconds = 0.0;          // first to last timestamp
 };
 
 // What a recording callback gets: inside rendering when the pass has attachments, program and set 0 bound when it has one.
@@ -67,7 +66,9 @@ using Record = std::function<void(const PassContext&)>;
 
 class Pass {
 public:
-    Pass& read(ResourceId id, Sampling sampling = Sampling::nearest) { return bind({id.index, 0, kAllMips, false, sampling}); }
+    Pass& read(ResourceId id, Sampling sampling = Sampling::nearest) {
+        return bind({id.index, 0, VK_REMAINING_MIP_LEVELS, false, sampling});
+    }
     Pass& readMip(ImageId id, uint32_t mip, Sampling sampling = Sampling::nearest) { return bind({id.index, mip, 1, false, sampling}); }
     Pass& write(ResourceId id) { return bind({id.index, 0, 1, true}); }  // of an image: mip 0
     Pass& writeMip(ImageId image, uint32_t mip) { return bind({image.index, mip, 1, true}); }
@@ -84,7 +85,6 @@ public:
         return *this;
     }
     void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);  // invocations, rounded up to whole workgroups
-    void draw(uint32_t vertices, uint32_t instances = 1);
     void record(Record record);
 
     const gpu::Program* program() const { return m_program; }  // null: work without shaders of its own
@@ -94,10 +94,8 @@ public:
 private:
     friend class Graph;
     friend class Executor;
-    static constexpr uint32_t kAllMips = ~0u;
     struct Bound {  // to the next binding of set 0
-        uint32_t resource;
-        uint32_t firstMip, mips;
+        uint32_t resource, firstMip, mips;
         bool writes;
         Sampling sampling = Sampling::nearest;
     };

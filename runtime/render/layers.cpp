@@ -20,7 +20,7 @@ LayerForm FormTrial::next(const graph::Timings& arrived) {
     if (arrived.frame != m_seen) {
         double ms[2] = {};
         bool complete[2] = {};  // all passes of the form were timed
-        for (const graph::PassTime& pass : arrived.passes) {
+        for (const gpu::PassTime& pass : arrived.passes) {
             const bool ladder = pass.name == "layers.clear" || pass.name == "layers.ladder";
             if (ladder || pass.name.ends_with(" hit")) ms[ladder] += pass.milliseconds;
             complete[0] |= pass.name == "layers.fourth hit";

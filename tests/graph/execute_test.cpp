@@ -111,7 +111,9 @@ TEST_F(GraphTest, hazardsBetweenComputeTexturesAndRenderTargetsAreSynchronized) 
     m_graph.pass("fill", m_kit.fill).write(a).constants(Push{1.0f, 0}).dispatch(16, 16);
     m_graph.pass("add", m_kit.add).read(a).write(b).constants(Push{2.0f, 0}).dispatch(16, 16);
     m_graph.pass("textured", m_kit.addTextured).read(b).write(c).constants(Push{4.0f, 0}).dispatch(16, 16);
-    m_graph.pass("draw", m_kit.triangle).color(d, VkClearColorValue{{9.0f}}).constants(Push{0.5f, 0}).draw(3);
+    m_graph.pass("draw", m_kit.triangle).color(d, VkClearColorValue{{9.0f}}).constants(Push{0.5f, 0}).record([](const PassContext& c) {
+        c.device.vk().CmdDraw(c.cmd, 3, 1, 0, 0);
+    });
     const ImageId e = image("e");
     m_graph.pass("after draw", m_kit.add).read(d).write(e).constants(Push{8.0f, 0}).dispatch(16, 16);
     probe(c);
@@ -274,7 +276,9 @@ TEST_F(GraphTest, timestampFollowsEveryPassAndGivesItsTime) {
         counter.clear();
         const ImageId drawn = image("drawn", 256), unread = image("unread");
         const BufferId target = m_graph.import("one", buffer, Graph::Shared::constant);
-        m_graph.pass("draw", m_kit.triangle).color(drawn, VkClearColorValue{}).constants(Push{1.0f, 0}).draw(3);
+        m_graph.pass("draw", m_kit.triangle).color(drawn, VkClearColorValue{}).constants(Push{1.0f, 0}).record([](const PassContext& c) {
+            c.device.vk().CmdDraw(c.cmd, 3, 1, 0, 0);
+        });
         m_graph.pass("one", m_kit.work).write(target).constants(Push{0.3f, 1}).keep().dispatch(256, 256);
         m_graph.pass("culled", m_kit.fill).write(unread).constants(Push{1.0f, 0}).dispatch(16, 16);
         probe(drawn);

@@ -13,7 +13,7 @@ struct Drawn {
     size_t candidate = 0;  // of Options::candidates
     size_t falloff = 0;    // of Options::falloffs
     truth::Plane visibility;
-    std::vector<graph::PassTime> passes;  // the method's own passes, medians in milliseconds
+    std::vector<gpu::PassTime> passes;  // the method's own passes, medians in milliseconds
     double milliseconds = 0.0;            // sum of the passes, median over rounds
 };
 

@@ -48,7 +48,7 @@ Json rowJson(const ShotResult& shot, const Row& row, const Options& options, con
         putMetrics(json["regions"][truth::kRegionNames[size_t(row.regions[i].region)]], row.regions[i].metrics);
     json["milliseconds"]["all"] = measure::digits(drawn.milliseconds);
     json["milliseconds"]["passes"] = Json::object();
-    for (const graph::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = measure::digits(pass.milliseconds);
+    for (const gpu::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = measure::digits(pass.milliseconds);
     if (reference.rays > 0.0f) {
         json["referenceRays"] = measure::digits(reference.rays);
         json["referenceError"] = measure::digits(reference.error);

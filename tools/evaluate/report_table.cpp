@@ -77,7 +77,7 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             const measure::Candidate& candidate = options.candidates[drawn.candidate];
             const std::string lead =
                 fmt::format("| {} | {} | {} | ", candidate.info().id, candidate.preset, options.falloffs[drawn.falloff].text);
-            for (const graph::PassTime& pass : drawn.passes) text += fmt::format("{}{} | {:.3f} |\n", lead, pass.name, pass.milliseconds);
+            for (const gpu::PassTime& pass : drawn.passes) text += fmt::format("{}{} | {:.3f} |\n", lead, pass.name, pass.milliseconds);
             text += fmt::format("{}**all** | {:.3f} |\n", lead, drawn.milliseconds);
         }
         text += fmt::format("\n{}- time of each stage: {}\n", referenceLines(shot, "- "), secondsLine(shot));

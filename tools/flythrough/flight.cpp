@@ -110,7 +110,7 @@ void Flight::draw() {
         geometry.visible = captured.visibleMask();
         m_geometry.push_back(std::move(geometry));
         if (frame == 0)
-            for (const graph::PassTime& pass : ran.passes)
+            for (const gpu::PassTime& pass : ran.passes)
                 if (!pass.name.starts_with("prepare.")) m_framePasses.push_back(pass.name);
     }
 }
@@ -201,7 +201,7 @@ Flight::Drawn Flight::draw(const measure::Candidate& candidate, uint32_t frame, 
     Drawn drawn{measure::planeOf(
                     ran.images[0], m_settings.size, fmt::format("{}, frame {} of {}", candidate.label(), frame, m_stage.script().name)),
         {}};
-    for (graph::PassTime& pass : ran.passes)
+    for (gpu::PassTime& pass : ran.passes)
         if (std::find(m_framePasses.begin(), m_framePasses.end(), pass.name) == m_framePasses.end())
             drawn.passes.push_back(std::move(pass));
     return drawn;
@@ -226,7 +226,7 @@ Chunk Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter
         if (frame < m_settings.first || frame >= m_settings.end) continue;
         const truth::Plane& picture = pictures.back();
         const Geometry& geometry = m_geometry[frame];
-        for (const graph::PassTime& pass : drawn.passes) {
+        for (const gpu::PassTime& pass : drawn.passes) {
             times[pass.name].name = pass.name;
             times[pass.name].values.push_back(pass.milliseconds);
         }

@@ -48,7 +48,7 @@ private:
     };
     struct Drawn {
         truth::Plane visibility;
-        std::vector<graph::PassTime> passes;
+        std::vector<gpu::PassTime> passes;
     };
     render::FrameOptions options(uint32_t frame) const;
     void draw();

@@ -39,9 +39,9 @@ Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao:
     app::Statistics statistics(frames);
     for (graph::Timings frame : ran.frames) {
         double all = 0.0, own = 0.0;
-        for (const graph::PassTime& pass : frame.passes) all += pass.milliseconds;
-        std::erase_if(frame.passes, [&](const graph::PassTime& pass) { return drawsTheFrame(pass.name); });
-        for (const graph::PassTime& pass : frame.passes) own += pass.milliseconds;
+        for (const gpu::PassTime& pass : frame.passes) all += pass.milliseconds;
+        std::erase_if(frame.passes, [&](const gpu::PassTime& pass) { return drawsTheFrame(pass.name); });
+        for (const gpu::PassTime& pass : frame.passes) own += pass.milliseconds;
         statistics.add(frame);
         drawing.own.push_back(own);
         drawing.rest.push_back(all - own);

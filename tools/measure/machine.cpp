@@ -77,7 +77,7 @@ Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declar
     for (const app::Series& series : statistics.passes())
         if (series.name != app::Capture::kPass) ran.passes.push_back({series.name, series.median()});
     for (graph::Timings& frame : ran.frames)
-        std::erase_if(frame.passes, [](const graph::PassTime& pass) { return pass.name == app::Capture::kPass; });
+        std::erase_if(frame.passes, [](const gpu::PassTime& pass) { return pass.name == app::Capture::kPass; });
     return ran;
 }
 

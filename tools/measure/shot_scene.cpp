@@ -89,7 +89,7 @@ void capture(Machine& machine, const Measurement& what, const scene::World& worl
     });
     shot.frame = capturedFrame(what.size, wanted.camera, size, ran.images[0], ran.images[1]);
     shot.frame.check(shot.scene + " " + shot.camera);
-    for (const graph::PassTime& pass : ran.passes)
+    for (const gpu::PassTime& pass : ran.passes)
         if (!pass.name.starts_with("prepare.")) shot.framePasses.push_back(pass.name);
 }
 
