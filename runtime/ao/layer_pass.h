@@ -11,7 +11,8 @@ class LayerPass {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayerPass& out);
     // Returns two layers a texel, R32G32B32A32_UINT, or the first alone, R32G32_UINT: view.size and coarser levels beside it; layout:
-    // shaders/ao/common/packed_layers.glsl. `sheet`: thickness of surfaces that no back face follows, metres. Needs inputs.layers.thickness.
+    // shaders/ao/common/packed_layers.glsl. `sheet`: thickness of surfaces that no back face follows, metres. Needs
+    // inputs.layers.thickness.
     enum class Layers : uint8_t { one, two };
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, float sheet, Layers layers = Layers::two);
     // Two layers if the frame has depth layers, for methods in which they are optional; else nothing.

@@ -169,7 +169,7 @@ Status Program::compute(
     made.m_device = &device;
     made.m_shaders = &shaders;
     made.m_name = made.m_vertex = name;
-    made.m_constants = constants;
+    made.m_constants = std::move(constants);
     made.m_bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     if (Status status = made.build(); status != Status::ok) return status;
     out = std::move(made);
@@ -185,7 +185,7 @@ Status Program::graphics(Device& device, const ShaderLibrary& shaders, std::stri
     made.m_vertex = vertex;
     made.m_fragment = fragment;
     made.m_name = fragment.empty() ? made.m_vertex : fmt::format("{} + {}", vertex, fragment);
-    made.m_constants = constants;
+    made.m_constants = std::move(constants);
     made.m_state = state;
     made.m_bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
     if (Status status = made.build(); status != Status::ok) return status;

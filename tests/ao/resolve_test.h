@@ -110,11 +110,11 @@ protected:
 };
 
 // With the pass under test, whose pipelines create() makes.
-template <class Filter> class FilterTest : public ResolveTest {
+template <class Tested> class FilterTest : public ResolveTest {
 protected:
     void SetUp() override {
         ResolveTest::SetUp();
-        ASSERT_EQ(Filter::create(m_device, m_shaders, m_filter), Status::ok);
+        ASSERT_EQ(Tested::create(m_device, m_shaders, m_filter), Status::ok);
     }
     void TearDown() override {
         m_device.waitIdle();
@@ -122,7 +122,7 @@ protected:
         ResolveTest::TearDown();
     }
 
-    Filter m_filter;
+    Tested m_filter;
 };
 
 }  // namespace obscura::ao

@@ -1,6 +1,5 @@
 // The shared temporal pass on an analytic wall: averaging, reprojection, disocclusion, history clamping.
 #include <random>
-
 #include <utility>
 
 #include "ao/resolve_test.h"

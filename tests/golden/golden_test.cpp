@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -51,8 +52,9 @@ void check(const std::string& method, const std::string& view) {
     const fs::path golden = kFolder / (method + "." + view + ".png");
     const fs::path made = fs::path(testing::TempDir()) / ("obscura-golden-" + method + "-" + view + ".png");
     const char* renewed = std::getenv("OBSCURA_RENEW_GOLDEN");  // methods, with commas, or "all"
-    const std::string list = renewed ? "," + std::string(renewed) + "," : "";
-    const bool renew = list == ",all," || list.find("," + method + ",") != list.npos;
+    std::istringstream list(renewed ? renewed : "");
+    bool renew = false;
+    for (std::string one; std::getline(list, one, ',');) renew = renew || one == method || one == "all";
     const fs::path target = renew ? golden : made;
     fs::remove(made);
     const std::string command = obscura::test::shellCommand(

@@ -298,7 +298,7 @@ TEST_F(GraphTest, timestampFollowsEveryPassAndGivesItsTime) {
     const Timings& timings = m_executor.timings();
     EXPECT_EQ(timings.frame, first);
     std::vector<std::string> names;
-    for (const PassTime& pass : timings.passes) names.push_back(pass.name);
+    for (const gpu::PassTime& pass : timings.passes) names.push_back(pass.name);
     ASSERT_EQ(names, (std::vector<std::string>{"draw", "one", "probe"}));
     const double thousandTicks = 1000.0 * caps.timestampPeriod * 1e-6;  // ms
     for (size_t i = 0; i < timings.passes.size(); ++i)

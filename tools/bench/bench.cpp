@@ -11,6 +11,7 @@
 #include "app/progress.h"
 #include "balls.h"
 #include "measure/draw.h"
+#include "measure/references.h"
 #include "scene/hash.h"
 
 namespace obscura::bench {

@@ -9,6 +9,7 @@
 #include "app/files.h"
 #include "bench.h"
 #include "compare.h"
+#include "gpu_cost_job.h"
 #include "page.h"
 #include "tables.h"
 
@@ -30,6 +31,7 @@ std::string textOf(const fs::path& file) {
 int run(int argc, char** argv) {
     const auto options = parseOptions(argc, argv);
     if (!options) return 0;
+    if (!options->gpuCost.empty()) return countGpuCost(*options);
     // Files are checked before anything is measured.
     if (!options->table.empty()) withTable(textOf(options->table), "", options->table), app::expectWritable(options->table);
     std::optional<Results> before;

@@ -55,6 +55,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "  obscura-bench --method hybrid --set voxel_structure=dense,nanovdb --scene sponza              two voxel structures\n"
         "  obscura-bench --triangles 10000,100000,1000000 --size 320x180,640x360,1280x720 --flicker 0    scaling of time\n"
         "  obscura-bench --scene sponza --compare before/bench.json                                      regressions\n"
+        "  obscura-bench --gpu-cost --method gtao,layered --preset all                                   cycles, registers, bytes, without "
+        "a GPU\n"
         "  obscura-bench --from out/front/bench.json --table README.md                                   the table between README's "
         "markers");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
@@ -99,6 +101,19 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->capture_default_str();
     cli.add_option("--flicker-size", flickerSize, "WIDTHxHEIGHT of those frames, pixels")->capture_default_str();
 
+    cli.option_defaults()->group("Cost on a GPU, counted by its compiler (Mesa's RADV; needs no GPU)");
+    std::vector<std::string> chips;
+    auto* gpuCost =
+        cli.add_option("--gpu-cost", chips,
+               "Instead of measuring, count cycles, registers, fetches and bytes of every preset on these chips: navi21, vega10, "
+               "navi10, polaris10; several with commas (navi21,vega10)")
+            ->expected(0, 1)
+            ->delimiter(',');
+    auto* check = cli.add_option("--check-gpu-cost", options.checkGpuCost,
+        "Compare these costs with a baseline; fail if a pass takes over 3 % more cycles, fits fewer waves, or spills more");
+    auto* renew = cli.add_option("--renew-gpu-cost", options.renewGpuCost, "Write that baseline");
+    check->excludes(renew);
+
     cli.option_defaults()->group("Output");
     cli.add_option("--out", out, "Folder of the results")->capture_default_str();
     cli.add_flag("--again", options.again, "Measure again instead of resuming from the folder");
@@ -117,6 +132,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (!app::parse(cli, argc, argv)) return std::nullopt;
     options.command = measure::commandOf("obscura-bench", argc, argv);
     options.out = out;
+    if (*gpuCost || *check || *renew) {
+        options.gpuCost = chips.empty() ? std::vector<std::string>{"navi21", "vega10"} : chips;
+        if (!cli.count("--preset")) chosen.presets = {"all"};
+        if (!cli.count("--size")) sizes = {"1920x1080"};
+        if (!cli.count("--out")) options.out = *check || *renew ? "" : "out/gpu_cost";
+    }
     if (!options.from.empty()) {
         for (const char* option : {"--scene", "--triangles", "--method", "--preset", "--set", "--falloff", "--size", "--camera"})
             if (cli.count(option))
@@ -125,7 +146,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         return options;
     }
     options.triangles = trianglesOf(triangles);
-    if (what.scenes.empty() && options.triangles.empty())
+    if (options.gpuCost.empty() && what.scenes.empty() && options.triangles.empty())
         for (const app::SceneFile& scene : app::namedScenes())
             if (!scene.file.empty()) what.scenes.push_back(scene.info.name);
     for (const std::string& size : sizes) options.sizes.push_back(app::sizeOf(size));

@@ -17,13 +17,16 @@ struct Options {
     std::vector<uint64_t> triangles;  // numbers of triangles of generated scenes, in addition to those of `what`
     std::optional<flythrough::Settings> flicker;
     std::filesystem::path out;
-    std::filesystem::path from;     // results of an earlier run instead of measuring
-    std::filesystem::path compare;  // results of an earlier run to compare with
-    std::filesystem::path table;    // a Markdown file with the markers of tables.h
-    double tolerance = 0.05;        // relative growth of times allowed in addition to their confidence interval
-    bool absolute = false;          // compare milliseconds
-    bool again = false;             // measure again what an earlier run measured
-    std::string command;            // the command line, for the results
+    std::filesystem::path from;          // results of an earlier run instead of measuring
+    std::filesystem::path compare;       // results of an earlier run to compare with
+    std::vector<std::string> gpuCost;    // chips whose compiler counts costs, instead of measuring; see gpu_cost/chip.h
+    std::filesystem::path checkGpuCost;  // a baseline to compare these costs with
+    std::filesystem::path renewGpuCost;  // a baseline to write
+    std::filesystem::path table;         // a Markdown file with the markers of tables.h
+    double tolerance = 0.05;             // relative growth of times allowed in addition to their confidence interval
+    bool absolute = false;               // compare milliseconds
+    bool again = false;                  // measure again what an earlier run measured
+    std::string command;                 // the command line, for the results
 };
 
 // Throws app::Complaint. Empty after printing help.

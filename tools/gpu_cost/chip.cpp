@@ -53,6 +53,14 @@ const Chip* findChip(const std::string& id) {
     return found == chips().end() ? nullptr : &*found;
 }
 
+std::string driverOf(const gpu::Device& device) {
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+    device.vk().GetPhysicalDeviceProperties2(device.physical(), &properties);
+    const std::string text = driver.driverInfo;  // "Mesa 22.3.6 (LLVM 15.0.6)" in some builds
+    return text.substr(0, text.find(" ("));
+}
+
 std::unique_ptr<gpu::Device> compilerOf(const Chip& chip, std::string& error) {
     const std::string driver = manifest();
     if (driver.empty()) {

@@ -27,4 +27,6 @@ const Chip* findChip(const std::string& id);
 // where RADV is not installed or its build offers no statistics. Sets environment variables of this process that choose Vulkan's driver.
 std::unique_ptr<gpu::Device> compilerOf(const Chip& chip, std::string& error);
 
+std::string driverOf(const gpu::Device& device);  // "Mesa 22.3.6"
+
 }  // namespace obscura::gpu_cost

@@ -42,8 +42,6 @@ const Loops kLoops[] = {
 };
 #undef OBSCURA_FIELD
 
-constexpr uint32_t kMostSamples = 64;  // unrolled; more are extrapolated
-
 uint32_t wordAt(std::span<const std::byte> bytes, size_t offset) {
     uint32_t value = 1;
     if (offset != kNone && offset + 4 <= bytes.size()) std::memcpy(&value, bytes.data() + offset, 4);
@@ -86,8 +84,8 @@ gpu::PipelineStatistics compiled(gpu::Device& compiler, gpu::Shader shader, cons
 
 }  // namespace
 
-CostModel::CostModel(gpu::Device& compiler, const Chip& chip, const gpu::ShaderLibrary& shaders)
-    : m_compiler(compiler), m_chip(chip), m_shaders(shaders) {}
+CostModel::CostModel(gpu::Device& compiler, const Chip& chip, const gpu::ShaderLibrary& shaders, uint32_t mostSamples)
+    : m_compiler(compiler), m_chip(chip), m_shaders(shaders), m_mostSamples(mostSamples) {}
 
 CostModel::Compiled CostModel::compile(const PassLoad& pass, std::span<const std::byte> constants) {
     std::string key = pass.shader;
@@ -99,7 +97,6 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, std::span<const std
     if (!shader) throw app::Complaint(fmt::format("{}: there is no such shader", pass.shader), app::kFailed);
     gpu::Shader fixed = *shader;
     fixed.spirv = withFixedConstants(shader->spirv, constants);
-    fixed.pushConstantBytes = 0;
     const gpu::PipelineStatistics asIs = compiled(m_compiler, *shader, pass), counted = compiled(m_compiler, fixed, pass);
     const Compiled result{counted.of({"Inverse Throughput"}), fetchesIn(counted.assembly), asIs.of({"VGPRs"}), asIs.of({"Spilled VGPRs"}),
         asIs.of({"Subgroups per SIMD", "SubgroupsPerSIMD"}), asIs.of({"LDS size"}), counted.of({"Subgroup size"}),
@@ -116,7 +113,7 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, bool& fitted) {
         if (!pass.shader.starts_with(loops.shader)) continue;
         const uint32_t side = wordAt(pass.constants, loops.side), unit = side * side, outer = wordAt(pass.constants, loops.outer) / unit,
                        inner = wordAt(pass.constants, loops.inner);
-        if (outer * inner <= kMostSamples || outer < 1 || inner < 1) break;
+        if (outer * inner <= m_mostSamples || outer < 1 || inner < 1) break;
         // cost(o, i) = a + o (b + c i)
         constexpr uint32_t kFew = 3, kMore = 6;
         const auto at = [&](uint32_t o, uint32_t i) {

@@ -1,9 +1,9 @@
 // What a pass and a method cost on a chip, counted by the chip's compiler.
 //     cycles = sum over compute passes of (inverse throughput of a wave) x (invocations a pixel) x 64 / (invocations a wave)
 // that is: cycles of a SIMD for every 64 pixels of the image. Inverse throughput is the compiler's estimate of how long a wave occupies its
-// SIMD. Counts are those of the preset: push constants are fixed and loops unrolled (fixed_constants.h); where that would be too much code,
-// three smaller counts are compiled and the cost extrapolated. Two floors of the time, at the chip's data sheet: arithmetic, cycles x pixels /
-// 64 / (SIMDs x clock); memory, bytes / bandwidth. A frame takes at least the larger.
+// SIMD. Counts are those of the preset: integer push constants are fixed and loops unrolled (fixed_constants.h); where that would be too
+// much code, three smaller counts are compiled and the cost extrapolated. Two floors of the time, by the chip's data sheet: arithmetic,
+// cycles x pixels / 64 / (SIMDs x clock); memory, bytes / bandwidth. A frame takes at least the larger.
 #pragma once
 
 #include <map>
@@ -39,7 +39,8 @@ struct MethodCost {
 // Compiles each different (shader, constants) once.
 class CostModel {
 public:
-    CostModel(gpu::Device& compiler, const Chip& chip, const gpu::ShaderLibrary& shaders);
+    // mostSamples: iterations that are unrolled; costs of more are extrapolated.
+    CostModel(gpu::Device& compiler, const Chip& chip, const gpu::ShaderLibrary& shaders, uint32_t mostSamples = 64);
     MethodCost costOf(const Workload& load);
 
 private:
@@ -53,6 +54,7 @@ private:
     gpu::Device& m_compiler;
     const Chip& m_chip;
     const gpu::ShaderLibrary& m_shaders;
+    const uint32_t m_mostSamples;
     std::map<std::string, Compiled> m_known;
 };
 

@@ -1,5 +1,6 @@
-// A compute shader as it runs with one set of push constants: they become constants of the code, and every loop is marked to be unrolled.
-// A compiler then counts the work of exactly that setting, where it would guess how often a loop with an unknown count runs.
+// A compute shader as it runs with one set of counts: the integers among its push constants become constants of the code, and every loop is
+// marked to be unrolled. A compiler then counts the work of exactly that setting, where it would guess how often a loop with an unknown
+// count runs. Floats stay push constants: what depends on them, such as the kind of falloff, costs what it costs.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +10,8 @@
 
 namespace obscura::gpu_cost {
 
-// spirv: a valid module with at most one push-constant block; `constants`: its contents. Returns a module without push constants, or the
-// same module if it has none. For compilers only: layout decorations stay on a variable that needs none, which validators report.
+// spirv: a valid module with one entry point and at most one push-constant block; `constants`: the block's contents. For compilers only:
+// layout decorations are left on a private variable, which validators may report.
 std::vector<uint32_t> withFixedConstants(std::span<const uint32_t> spirv, std::span<const std::byte> constants);
 
 }  // namespace obscura::gpu_cost
