@@ -46,7 +46,7 @@ TEST(FixedConstants, fixIntegersAndLeaveFloats) {
     test::TestShaders shaders;
     shaders.add("sum.comp", kShader);
     gpu::Shader fixed = *shaders.library.find("sum.comp");
-    fixed.spirv = withFixedConstants(fixed.spirv, std::as_bytes(std::span(&values, 1)));
+    fixed.spirv = withFixedConstants(fixed.spirv, std::as_bytes(std::span(&values, 1)), true);
     const std::string reflection = describe(fixed);
     const gpu::EmbeddedShader embedded{"fixed.comp", fixed.spirv, reflection.c_str()};
     shaders.library.add({&embedded, 1});

@@ -14,7 +14,7 @@ struct Drawn {
     size_t falloff = 0;    // of Options::falloffs
     truth::Plane visibility;
     std::vector<gpu::PassTime> passes;  // the method's own passes, medians in milliseconds
-    double milliseconds = 0.0;            // sum of the passes, median over rounds
+    double milliseconds = 0.0;          // sum of the passes, median over rounds
 };
 
 // One line of the tables.

@@ -9,10 +9,7 @@
 
 #include "ao/gtao/constants.h"
 #include "ao/hbao/constants.h"
-#include "ao/horizon_split/constants.h"
-#include "ao/hybrid/constants.h"
 #include "ao/layered/constants.h"
-#include "ao/offscreen/constants.h"
 #include "ao/visibility_bitmask/constants.h"
 #include "app/complaint.h"
 #include "gpu/pipeline_statistics.h"
@@ -21,26 +18,35 @@
 namespace obscura::gpu_cost {
 namespace {
 
-// Two nested loops of a shader, whose counts are push constants. `side`: an interleaved tile divides the outer count by its square.
+// Shaders whose loops all have counts among the push constants, or constant ones. `outer`, `inner`: of two nested loops; `side`: an
+// interleaved tile divides the outer count by its square.
+constexpr size_t kNone = ~size_t(0);
 struct Loops {
     const char* shader;  // up to the variant
-    size_t outer, inner;
-    size_t side;
+    size_t outer = kNone, inner = kNone, side = kNone;
 };
-constexpr size_t kNone = ~size_t(0);
 #define OBSCURA_FIELD(type, name) offsetof(shared::type, name)
 const Loops kLoops[] = {
-    {"ao/layered/segments.comp", OBSCURA_FIELD(LayeredSegments, slices), OBSCURA_FIELD(LayeredSegments, steps), kNone},
-    {"ao/gtao/horizons.comp", OBSCURA_FIELD(GtaoHorizons, slices), OBSCURA_FIELD(GtaoHorizons, steps), kNone},
-    {"ao/visibility_bitmask/sectors.comp", OBSCURA_FIELD(VisibilityBitmaskSectors, slices), OBSCURA_FIELD(VisibilityBitmaskSectors, steps),
-        kNone},
+    {"ao/layered/segments.comp", OBSCURA_FIELD(LayeredSegments, slices), OBSCURA_FIELD(LayeredSegments, steps)},
+    {"ao/layered/gather.comp"},
+    {"ao/gtao/horizons.comp", OBSCURA_FIELD(GtaoHorizons, slices), OBSCURA_FIELD(GtaoHorizons, steps)},
+    {"ao/visibility_bitmask/sectors.comp", OBSCURA_FIELD(VisibilityBitmaskSectors, slices), OBSCURA_FIELD(VisibilityBitmaskSectors, steps)},
     {"ao/hbao/horizons.comp", OBSCURA_FIELD(HbaoHorizons, directions), OBSCURA_FIELD(HbaoHorizons, steps),
         OBSCURA_FIELD(HbaoHorizons, side)},
-    {"ao/horizon_split/", OBSCURA_FIELD(HorizonSplitMarch, directions), OBSCURA_FIELD(HorizonSplitMarch, steps),
-        OBSCURA_FIELD(HorizonSplitMarch, side)},
-    {"ao/hybrid/trace.comp", OBSCURA_FIELD(HybridTrace, rays), OBSCURA_FIELD(HybridTrace, steps), kNone},
+    {"ao/ssao/"},
+    {"ao/volumetric/"},
+    {"ao/scalable/"},
+    {"ao/common/denoise.comp"},
+    {"ao/common/gather"},
+    {"ao/common/depth_mips.comp"},
+    {"ao/far_field/blur.comp"},
 };
 #undef OBSCURA_FIELD
+const Loops* loopsOf(const std::string& shader) {
+    for (const Loops& loops : kLoops)
+        if (shader.starts_with(loops.shader)) return &loops;
+    return nullptr;
+}
 
 uint32_t wordAt(std::span<const std::byte> bytes, size_t offset) {
     uint32_t value = 1;
@@ -96,7 +102,7 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, std::span<const std
     const gpu::Shader* shader = m_shaders.find(pass.shader);
     if (!shader) throw app::Complaint(fmt::format("{}: there is no such shader", pass.shader), app::kFailed);
     gpu::Shader fixed = *shader;
-    fixed.spirv = withFixedConstants(shader->spirv, constants);
+    fixed.spirv = withFixedConstants(shader->spirv, constants, loopsOf(pass.shader));
     const gpu::PipelineStatistics asIs = compiled(m_compiler, *shader, pass), counted = compiled(m_compiler, fixed, pass);
     const Compiled result{counted.of({"Inverse Throughput"}), fetchesIn(counted.assembly), asIs.of({"VGPRs"}), asIs.of({"Spilled VGPRs"}),
         asIs.of({"Subgroups per SIMD", "SubgroupsPerSIMD"}), asIs.of({"LDS size"}), counted.of({"Subgroup size"}),
@@ -109,28 +115,26 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, std::span<const std
 
 CostModel::Compiled CostModel::compile(const PassLoad& pass, bool& fitted) {
     fitted = false;
-    for (const Loops& loops : kLoops) {
-        if (!pass.shader.starts_with(loops.shader)) continue;
-        const uint32_t side = wordAt(pass.constants, loops.side), unit = side * side, outer = wordAt(pass.constants, loops.outer) / unit,
-                       inner = wordAt(pass.constants, loops.inner);
-        if (outer * inner <= m_mostSamples || outer < 1 || inner < 1) break;
-        // cost(o, i) = a + o (b + c i)
-        constexpr uint32_t kFew = 3, kMore = 6;
-        const auto at = [&](uint32_t o, uint32_t i) {
-            return compile(pass, with(with(pass.constants, loops.outer, o * unit), loops.inner, i));
-        };
-        const Compiled few = at(1, kFew), more = at(1, kMore), twice = at(2, kFew);
-        const auto extrapolated = [&](double f, double m, double t) {
-            const double perInner = (m - f) / (kMore - kFew), perOuter = t - f - perInner * kFew;
-            return f + (outer - 1) * perOuter + perInner * (double(outer) * inner - kFew);
-        };
-        Compiled result = few;
-        result.cycles = extrapolated(few.cycles, more.cycles, twice.cycles);
-        result.fetches = extrapolated(few.fetches, more.fetches, twice.fetches);
-        fitted = true;
-        return result;
-    }
-    return compile(pass, pass.constants);
+    const Loops* loops = loopsOf(pass.shader);
+    if (!loops || loops->outer == kNone) return compile(pass, pass.constants);
+    const uint32_t side = wordAt(pass.constants, loops->side), unit = side * side, outer = wordAt(pass.constants, loops->outer) / unit,
+                   inner = wordAt(pass.constants, loops->inner);
+    if (outer * inner <= m_mostSamples || outer < 1 || inner < 1) return compile(pass, pass.constants);
+    // cost(o, i) = a + o (b + c i)
+    constexpr uint32_t kFew = 3, kMore = 6;
+    const auto at = [&](uint32_t o, uint32_t i) {
+        return compile(pass, with(with(pass.constants, loops->outer, o * unit), loops->inner, i));
+    };
+    const Compiled few = at(1, kFew), more = at(1, kMore), twice = at(2, kFew);
+    const auto extrapolated = [&](double f, double m, double t) {
+        const double perInner = (m - f) / (kMore - kFew), perOuter = t - f - perInner * kFew;
+        return f + (outer - 1) * perOuter + perInner * (double(outer) * inner - kFew);
+    };
+    Compiled result = few;
+    result.cycles = extrapolated(few.cycles, more.cycles, twice.cycles);
+    result.fetches = extrapolated(few.fetches, more.fetches, twice.fetches);
+    fitted = true;
+    return result;
 }
 
 MethodCost CostModel::costOf(const Workload& load) {

@@ -17,7 +17,7 @@ enum : uint32_t {
     kTypeStruct = 30,
     kTypePointer = 32
 };
-enum : uint32_t { kConstant = 43, kFunction = 54, kVariable = 59, kLoad = 61, kStore = 62, kAccessChain = 65 };
+enum : uint32_t { kConstant = 43, kConstantComposite = 44, kFunction = 54, kVariable = 59, kLoad = 61, kStore = 62, kAccessChain = 65 };
 enum : uint32_t { kDecorate = 71, kMemberDecorate = 72, kLoopMerge = 246, kLabel = 248 };
 enum : uint32_t { kPrivate = 6, kPushConstant = 9, kArrayStride = 6, kOffset = 35 };
 enum : uint32_t { kUnroll = 1, kDontUnroll = 2 };
@@ -27,7 +27,8 @@ using Words = std::vector<uint32_t>;
 
 class Module {
 public:
-    Module(std::span<const uint32_t> spirv, std::span<const std::byte> constants) : m_spirv(spirv), m_bytes(constants) {}
+    Module(std::span<const uint32_t> spirv, std::span<const std::byte> constants, bool unroll)
+        : m_spirv(spirv), m_bytes(constants), m_unroll(unroll) {}
 
     Words fixed() {
         if (m_spirv.size() < kHeaderWords) return {m_spirv.begin(), m_spirv.end()};
@@ -52,7 +53,7 @@ private:
 
     void learn(std::span<const uint32_t> op, uint32_t code) {
         if ((code >= kTypeInt && code <= kTypePointer) || code == kConstant) m_definitions[op[code == kConstant ? 2 : 1]] = op;
-        if (code == kTypeInt && op[2] == 32) m_int = op[1];
+        if (code == kTypeInt && op[2] == 32 && !m_int) m_int = op[1];  // the first: it stands before the variable
         if (code == kDecorate && op.size() > 3 && op[2] == kArrayStride) m_strides[op[1]] = op[3];
         if (code == kMemberDecorate && op.size() > 4 && op[3] == kOffset) m_offsets[{op[1], op[2]}] = op[4];
         if (code == kVariable && op[3] == kPushConstant) m_copy = op[2];
@@ -71,7 +72,7 @@ private:
             copy[0] += 1u << 16;
         }
         if (code == kTypePointer && op[2] == kPushConstant) copy[2] = kPrivate;
-        if (code == kLoopMerge) copy[3] = (copy[3] | kUnroll) & ~uint32_t(kDontUnroll);
+        if (code == kLoopMerge && m_unroll) copy[3] = (copy[3] | kUnroll) & ~uint32_t(kDontUnroll);
         if (code == kVariable && op[3] == kPushConstant) {
             m_block = m_definitions[op[1]][3];
             const uint32_t pointer = define({4u << 16 | kTypePointer, m_bound, kPushConstant, m_block});
@@ -108,8 +109,13 @@ private:
         };
         if (code == kTypeInt)
             m_counts.push_back({path, define({4u << 16 | kTypePointer, m_bound, kPrivate, type}), constant(type, word(offset))});
-        if (code == kTypeVector)
-            for (uint32_t i = 0; i < op[3]; ++i) below(op[2], i, offset + 4 * i);
+        if (code == kTypeVector && (m_definitions[op[2]][0] & 0xffffu) == kTypeInt) {
+            Words vector{(3u + op[3]) << 16 | kConstantComposite, type, 0};
+            for (uint32_t i = 0; i < op[3]; ++i) vector.push_back(constant(op[2], word(offset + 4 * i)));
+            vector[2] = m_bound;
+            const uint32_t value = define(vector);
+            m_counts.push_back({path, define({4u << 16 | kTypePointer, m_bound, kPrivate, type}), value});
+        }
         if (code == kTypeArray)
             for (uint32_t i = 0; i < m_definitions[op[3]][3]; ++i) below(op[2], i, offset + m_strides[type] * i);
         if (code == kTypeStruct)
@@ -134,6 +140,7 @@ private:
     };
     std::span<const uint32_t> m_spirv;
     std::span<const std::byte> m_bytes;
+    const bool m_unroll;
     Words m_result;
     uint32_t m_bound = 0, m_int = 0, m_main = 0;
     uint32_t m_pushed = 0, m_copy = 0, m_block = 0;  // the new push-constant variable, the old one, the block's type
@@ -146,8 +153,8 @@ private:
 
 }  // namespace
 
-std::vector<uint32_t> withFixedConstants(std::span<const uint32_t> spirv, std::span<const std::byte> constants) {
-    return Module(spirv, constants).fixed();
+std::vector<uint32_t> withFixedConstants(std::span<const uint32_t> spirv, std::span<const std::byte> constants, bool unroll) {
+    return Module(spirv, constants, unroll).fixed();
 }
 
 }  // namespace obscura::gpu_cost

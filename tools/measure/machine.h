@@ -34,7 +34,7 @@ public:
     using Declare = std::function<std::vector<graph::ImageId>(graph::Graph&, uint32_t frame)>;
     struct Ran {
         std::vector<std::vector<std::byte>> images;  // tightly packed rows
-        std::vector<gpu::PassTime> passes;         // medians over the timed frames, in execution order
+        std::vector<gpu::PassTime> passes;           // medians over the timed frames, in execution order
         std::vector<graph::Timings> frames;          // every timed frame
         uint64_t bytes = 0;                          // Executor::frameBytes() of the last one
     };
