@@ -120,15 +120,14 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, bool& fitted) {
     const uint32_t side = wordAt(pass.constants, loops->side), unit = side * side, outer = wordAt(pass.constants, loops->outer) / unit,
                    inner = wordAt(pass.constants, loops->inner);
     if (outer * inner <= m_mostSamples || outer < 1 || inner < 1) return compile(pass, pass.constants);
-    // cost(o, i) = a + o (b + c i)
-    constexpr uint32_t kFew = 3, kMore = 6;
+    // cost(o, i) = a + o (b + c i), from o, i of (4, 4), (4, 8), (8, 4): fewer iterations are simplified too much
     const auto at = [&](uint32_t o, uint32_t i) {
         return compile(pass, with(with(pass.constants, loops->outer, o * unit), loops->inner, i));
     };
-    const Compiled few = at(1, kFew), more = at(1, kMore), twice = at(2, kFew);
+    const Compiled few = at(4, 4), more = at(4, 8), twice = at(8, 4);
     const auto extrapolated = [&](double f, double m, double t) {
-        const double perInner = (m - f) / (kMore - kFew), perOuter = t - f - perInner * kFew;
-        return f + (outer - 1) * perOuter + perInner * (double(outer) * inner - kFew);
+        const double inside = (m - f) / 16, around = (t - f) / 4;  // c; b + 4 c
+        return f + (double(outer) - 4) * around + double(outer) * (double(inner) - 4) * inside;
     };
     Compiled result = few;
     result.cycles = extrapolated(few.cycles, more.cycles, twice.cycles);
