@@ -54,7 +54,7 @@ PipelineStatistics statisticsOf(const Device& device, const Program& program, Vk
         }
         vk.GetPipelineExecutableInternalRepresentationsKHR(device.handle(), &executable, &size, texts.data());
         for (size_t i = 0; i < texts.size(); ++i)
-            if (texts[i].isText && std::strstr(texts[i].name, "ssembly")) result.assembly = contents[i].c_str();
+            if (texts[i].isText && std::strstr(texts[i].name, "ssembly")) result.assembly = contents[i].substr(0, contents[i].find('\0'));
         break;
     }
     return result;

@@ -123,7 +123,7 @@ Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History
     const ImageId previous{use.resources[read]};
     const bool valid = history.m_valid && history.m_copies[read].image.desc() == desc && !discard;
     if (!valid)
-        pass(name + ".clear").use(previous, Access::transferWrite, true).record([previous](const PassContext& c) {
+        pass(std::move(name) + ".clear").use(previous, Access::transferWrite, true).record([previous](const PassContext& c) {
             const VkClearColorValue zero{};
             const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0, 1};
             c.device.vk().CmdClearColorImage(c.cmd, c.image(previous), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1, &range);
@@ -133,7 +133,7 @@ Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History
 
 Pass& Graph::add(std::string name, gpu::Program* program) {
     Pass& pass = m_passes.emplace_back();
-    pass.m_desc.name = m_prefix + name;
+    pass.m_desc.name = m_prefix + std::move(name);
     pass.m_program = program;
     return pass;
 }

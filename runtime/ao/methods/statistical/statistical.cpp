@@ -26,7 +26,6 @@ namespace obscura::ao::statistical {
 namespace {
 
 using shared::Box;
-using shared::uvec2;
 using Tables = StatisticalTables::Tables;
 
 enum Estimator : uint32_t { kTables, kPoints, kLines };
