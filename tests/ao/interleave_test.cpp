@@ -1,9 +1,9 @@
 // Interleaving: the gather pass, and methods whose directions are distributed over a tile against the same methods without interleaving.
 #include <bit>
 
+#include "ao/filter_test.h"
 #include "ao/interleave.h"
 #include "ao/method_test.h"
-#include "ao/resolve_test.h"
 
 namespace obscura::ao {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 class GatherTest : public FilterTest<Gather> {
 protected:
     Plane run(const Frame& frame, uint32_t side, bool weighted = false) {
-        return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
+        return PassTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
             if (!weighted) return m_filter.add(graph, inputs, source, side);
             // Every pixel has obscurance 0.25 and some weight: visibility is reduced by a quarter, whatever the weights.
             gpu::Image image;
@@ -27,7 +27,7 @@ protected:
 
     // Gathers on a map with one pixel for `scale` x `scale` pixels of a larger image.
     Plane runMap(const Frame& frame, uint32_t scale, uint32_t side) {
-        return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
+        return PassTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
             std::vector<uint32_t> texels;
             for (uint32_t y = 0; y < kHeight; ++y)
                 for (uint32_t x = 0; x < kWidth; ++x)

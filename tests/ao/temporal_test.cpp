@@ -2,7 +2,7 @@
 #include <random>
 #include <utility>
 
-#include "ao/resolve_test.h"
+#include "ao/filter_test.h"
 
 namespace obscura::ao {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 class TemporalTest : public FilterTest<Temporal> {
 protected:
     Plane run(const Frame& frame, const TemporalSettings& settings) {
-        return ResolveTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
+        return PassTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
             return m_filter.add(graph, inputs, source, settings, std::exchange(m_discard, false), "temporal");
         });
     }

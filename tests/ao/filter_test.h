@@ -15,7 +15,7 @@ using Plane = std::vector<float>;
 inline constexpr uint32_t kWidth = 40, kHeight = 24, kGuard = 2;
 inline constexpr float kHorizontal = 0.05f;  // eye-space metres per px and metre of depth
 
-class ResolveTest : public test::GpuTest {
+class PassTest : public test::GpuTest {
 protected:
     using Filter = std::function<graph::ImageId(graph::Graph& graph, const Inputs& inputs, graph::ImageId source)>;
     // One frame. Images have the visible size; the guard band repeats their edge.
@@ -94,12 +94,12 @@ protected:
         EXPECT_EQ(
             gpu::Image::create(m_device,
                 {format, width, height, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                "resolve test", out),
+                "pass test", out),
             gpu::Status::ok);
         EXPECT_EQ(gpu::upload(m_device, out, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL), gpu::Status::ok);
         graph::External external{out.handle(), out.view(), out.desc()};
         external.layout = external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-        return m_graph.import("resolve test", external);
+        return m_graph.import("pass test", external);
     }
 
     gpu::Device& m_device = test::device();
@@ -110,16 +110,16 @@ protected:
 };
 
 // With the pass under test, whose pipelines create() makes.
-template <class Tested> class FilterTest : public ResolveTest {
+template <class Tested> class FilterTest : public PassTest {
 protected:
     void SetUp() override {
-        ResolveTest::SetUp();
+        PassTest::SetUp();
         ASSERT_EQ(Tested::create(m_device, m_shaders, m_filter), Status::ok);
     }
     void TearDown() override {
         m_device.waitIdle();
         m_filter = {};
-        ResolveTest::TearDown();
+        PassTest::TearDown();
     }
 
     Tested m_filter;
