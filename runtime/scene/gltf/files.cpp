@@ -91,7 +91,7 @@ fs::path locate(const Context& context, const JsonAt& at, const std::string& uri
     if (!fs::exists(context.folder / relative, error) && fs::exists(context.folder / uri, error)) relative = uri;
     // Refused before the file is looked up: an error must not reveal which files exist elsewhere.
     if (*relative.lexically_normal().begin() == "..") at.fail(fmt::format("\"{}\" leaves the model's folder", uri));
-    const fs::path file = fs::canonical(context.folder / relative, error);
+    fs::path file = fs::canonical(context.folder / relative, error);
     if (error) at.fail(fmt::format("the file \"{}\" cannot be found beside the model", uri));
     const auto [end, rest] = std::mismatch(context.folder.begin(), context.folder.end(), file.begin(), file.end());
     if (end != context.folder.end()) at.fail(fmt::format("\"{}\" leaves the model's folder through a link", uri));
