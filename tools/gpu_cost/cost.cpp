@@ -9,6 +9,8 @@
 
 #include "ao/gtao/constants.h"
 #include "ao/hbao/constants.h"
+#include "ao/horizon_split/constants.h"
+#include "ao/hybrid/constants.h"
 #include "ao/layered/constants.h"
 #include "ao/visibility_bitmask/constants.h"
 #include "app/complaint.h"
@@ -33,6 +35,13 @@ const Loops kLoops[] = {
     {"ao/visibility_bitmask/sectors.comp", OBSCURA_FIELD(VisibilityBitmaskSectors, slices), OBSCURA_FIELD(VisibilityBitmaskSectors, steps)},
     {"ao/hbao/horizons.comp", OBSCURA_FIELD(HbaoHorizons, directions), OBSCURA_FIELD(HbaoHorizons, steps),
         OBSCURA_FIELD(HbaoHorizons, side)},
+    {"ao/hybrid/trace.comp", OBSCURA_FIELD(HybridTrace, rays), OBSCURA_FIELD(HybridTrace, steps), OBSCURA_FIELD(HybridTrace, side)},
+    {"ao/horizon_split/horizons.comp", OBSCURA_FIELD(HorizonSplitMarch, directions), OBSCURA_FIELD(HorizonSplitMarch, steps),
+        OBSCURA_FIELD(HorizonSplitMarch, side)},
+    {"ao/horizon_split/normal_rays.comp", OBSCURA_FIELD(HorizonSplitMarch, directions), OBSCURA_FIELD(HorizonSplitMarch, steps),
+        OBSCURA_FIELD(HorizonSplitMarch, side)},
+    {"ao/horizon_split/normal_rays_layers.comp", OBSCURA_FIELD(HorizonSplitMarch, directions), OBSCURA_FIELD(HorizonSplitMarch, steps),
+        OBSCURA_FIELD(HorizonSplitMarch, side)},
     {"ao/ssao/"},
     {"ao/volumetric/"},
     {"ao/scalable/"},

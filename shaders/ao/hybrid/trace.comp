@@ -55,8 +55,8 @@ void main() {
         float first = mix(0.5, shift, jitterOfSteps);
         // Back to front: the last hit is the nearest.
         float hit = -1.0;
-        for (uint k = stepCount; k > 0u; --k) {
-            float t = float(k - 1u) + first;
+        for (uint k = 1u; k <= stepCount; ++k) {
+            float t = float(stepCount - k) + first;
             vec3 at = origin + stride * t;
             hit = occupied(volume, at) && t >= nearest ? t : hit;
         }

@@ -69,8 +69,8 @@ void main() {
         vec3 stridePixels = (tangentPixels * across.x + bitangentPixels * across.y + upPixels * c) * step;
         // Back to front: the last hit is the nearest.
         float hit = -1.0;
-        for (uint k = stepCount; k > 0u; --k) {
-            float t = float(k - 1u) + shift;
+        for (uint k = 1u; k <= stepCount; ++k) {
+            float t = float(stepCount - k) + shift;
             vec3 q = start + stridePixels * t, at = origin + stride * t;
             ivec2 texel;
             bool inside = texelOf(lens, q, texel);
