@@ -37,7 +37,7 @@ bool readWhole(Bytes* out, std::string*, const std::string& name, void* files) {
     *out = std::move(*bytes);
     return true;
 }
-bool sizeOf(size_t* out, std::string*, const std::string& name, void* files) {
+[[maybe_unused]] bool sizeOf(size_t* out, std::string*, const std::string& name, void* files) {
     const Bytes* bytes = static_cast<MemoryFiles*>(files)->find(name);
     if (bytes) *out = bytes->size();
     return bytes != nullptr;
