@@ -26,7 +26,7 @@ OBSCURA_SHARED_END
 #ifndef __cplusplus
 vec3 eyePosition(View view, vec2 pixelCentre, float depth) {
     vec2 xy = pixelCentre * view.unproject.xy + view.unproject.zw;
-    return vec3(view.orthographic > 0.5 ? xy : xy * depth, -depth);
+    return vec3(xy * (view.orthographic > 0.5 ? 1.0 : depth), -depth);
 }
 vec2 pixelOf(View view, vec3 eye) {
     vec2 xy = view.orthographic > 0.5 ? eye.xy : eye.xy / -eye.z;

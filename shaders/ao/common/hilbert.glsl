@@ -4,15 +4,15 @@
 #define OBSCURA_HILBERT_GLSL
 #include "shared/view.h"
 
-// Index along the curve of order 6. Each level appends the quadrant's rank and transforms p into the quadrant's frame.
+// Index along the curve of order 6. In each level a quadrant has a rank and is traversed in one of four orientations (bits: axes swapped,
+// axes reversed). Two bits for each orientation and quadrant (x, y): its rank, and the orientation inside it.
 uint hilbertIndex(uvec2 p) {
-    p &= 63u;
-    uint index = 0u;
+    const uint kRank = 0x361e9cb4u, kInside = 0x8fe65831u;
+    uint index = 0u, orientation = 0u;
     for (int bit = 5; bit >= 0; --bit) {
-        uvec2 half_ = (p >> bit) & 1u;
-        index = index << 2 | ((3u * half_.x) ^ half_.y);
-        p = half_.y == 0u && half_.x == 1u ? 63u - p : p;
-        p = half_.y == 0u ? p.yx : p;
+        int at = int(orientation << 3 | bitfieldExtract(p.x, bit, 1) << 2 | bitfieldExtract(p.y, bit, 1) << 1);
+        index = index << 2 | bitfieldExtract(kRank, at, 2);
+        orientation = bitfieldExtract(kInside, at, 2);
     }
     return index;
 }

@@ -47,7 +47,8 @@ void main() {
     float blocked = 0.0;
     for (uint k = 0u;;) {
         Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(constants.slices), constants.rayAxis != 0u);
-        float no = dot(r.n, slice.across), projected = sqrt(max(no * no + r.nv * r.nv, 1e-12)), sine = no / projected;
+        float no = dot(r.n, slice.across), squared = max(no * no + r.nv * r.nv, 1e-12), inverseLength = inversesqrt(squared),
+              projected = squared * inverseLength, sine = no * inverseLength;
         vec2 low = vec2(-sine, sine);  // cosines of gamma +- pi/2, the hemisphere's edges
 #ifdef DEPTH_LAYERS
         Side halves[2];
@@ -93,15 +94,11 @@ void main() {
         }
 #ifdef DEPTH_LAYERS
         covered = vec2(halves[0].blocked * halves[0].whole, halves[1].blocked * halves[1].whole) / 32.0;
-        if (!kArcs) open += mix(projected, 1.0, 0.05) * 0.5 * (halves[0].whole + halves[1].whole - covered.x - covered.y) / projected;
+        float arcs = halves[0].whole + halves[1].whole - covered.x - covered.y;
 #else
-        if (!kArcs) {
-            float gamma = sign(no) * arcCosine(r.nv / projected);
-            float h0 = -arcCosine(horizon.y), h1 = arcCosine(horizon.x);
-            float arcs = 2.0 * cos(gamma) + 2.0 * (h0 + h1) * sin(gamma) - cos(2.0 * h0 - gamma) - cos(2.0 * h1 - gamma);
-            open += mix(projected, 1.0, 0.05) * 0.25 * arcs;
-        }
+        float arcs = kArcs ? 0.0 : sliceArc(r.nv, no, horizon.x) + sliceArc(r.nv, -no, horizon.y);
 #endif
+        if (!kArcs) open += mix(projected, 1.0, 0.05) * 0.5 * inverseLength * arcs;
         blocked += covered.x + covered.y;
         if (++k >= constants.slices) break;
     }
