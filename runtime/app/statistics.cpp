@@ -1,6 +1,7 @@
 #include "app/statistics.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace obscura::app {
 
@@ -9,6 +10,12 @@ double percentile(std::vector<double> values, double rank) {
     const size_t index = std::min(values.size() - 1, size_t(rank * double(values.size())));
     std::nth_element(values.begin(), values.begin() + long(index), values.end());
     return values[index];
+}
+
+double digits(double value, int count) {
+    if (value == 0.0 || !std::isfinite(value)) return 0.0;
+    const double scale = std::pow(10.0, count - 1 - std::floor(std::log10(std::fabs(value))));
+    return std::round(value * scale) / scale;
 }
 
 Series& named(std::vector<Series>& all, const std::string& name) {

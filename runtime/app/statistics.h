@@ -12,6 +12,8 @@ namespace obscura::app {
 
 // The value below which the fraction `rank` of the values lies (0.5: median); 0 without values.
 double percentile(std::vector<double> values, double rank);
+// Rounded to that many significant digits; six is the precision of float errors. Not finite: 0.
+double digits(double value, int count = 6);
 
 struct Series {
     std::string name;

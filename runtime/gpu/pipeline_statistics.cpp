@@ -16,10 +16,9 @@ double valueOf(const VkPipelineExecutableStatisticKHR& s) {
 
 }  // namespace
 
-double PipelineStatistics::of(std::initializer_list<const char*> names) const {
-    for (const char* name : names)
-        if (const auto found = values.find(name); found != values.end()) return found->second;
-    return -1.0;
+double PipelineStatistics::of(const char* name) const {
+    const auto found = values.find(name);
+    return found == values.end() ? -1.0 : found->second;
 }
 
 PipelineStatistics statisticsOf(const Device& device, const Program& program, VkShaderStageFlagBits stage) {

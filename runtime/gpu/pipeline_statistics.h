@@ -10,10 +10,9 @@
 namespace obscura::gpu {
 
 struct PipelineStatistics {
-    std::map<std::string, double> values;  // by the driver's own names, such as "VGPRs"; of the stage that `stage` names
+    std::map<std::string, double> values;  // by the driver's own names, such as "VGPRs", and "Subgroup size"
     std::string assembly;                  // the driver's text; empty where it offers none
-    // Value of the first of these names that the driver has, else -1.
-    double of(std::initializer_list<const char*> names) const;
+    double of(const char* name) const;     // -1 where the driver has no such value
 };
 
 // Of one stage of a program's pipeline. Empty where the device has none.

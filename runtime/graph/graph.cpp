@@ -167,7 +167,7 @@ bool Graph::resolve() {
 
 // A pass against its shaders: as many bindings as reads and writes, each of the kind that was given. Returns what is wrong.
 std::string Graph::resolve(const Pass& pass, std::vector<Use>& uses) const {
-    if (!pass.m_work) return "neither dispatch, draw nor record was called";
+    if (!pass.m_work) return "neither dispatch nor record was called";
     if (!pass.m_program) return pass.m_bound.empty() && pass.m_recorded ? "" : "has no program to read, write or dispatch with";
     const gpu::Program& program = *pass.m_program;
     if (!program) return "its program was never made";

@@ -45,7 +45,7 @@ Status LayersPass::createPair(gpu::Device& device, const gpu::ShaderLibrary& sha
     state.vertexAttributes.push_back({1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
     state.vertexAttributes.push_back({2, 1, VK_FORMAT_R16G16B16A16_SFLOAT, 16});
     return gpu::Program::graphics(device, shaders, "scene/layers/place.vert:MASKED",
-        fragment + (fragment.ends_with("frag") ? ":MASKED" : ",MASKED"), state, constants, out.masked);
+        fragment + (fragment.find(':') == fragment.npos ? ":MASKED" : ",MASKED"), state, constants, out.masked);
 }
 
 Status LayersPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, LayersPass& out) {

@@ -177,7 +177,7 @@ ao::Inputs Renderer::Impl::obscurance(
         ao::Library::Added added = of.add(graph, frame, sources, options.falloff, values);
         if (!added.visibility) added.visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has logged why
         // A method that cannot be made leaves no prepared depth, which lighting reads.
-        if (!added.inputs.depth) added.inputs = of.add(graph, frame, sources, options.falloff, ao::Values(*ao::methods()[0])).inputs;
+        if (!added.inputs.depth) added.inputs = of.add(graph, frame, sources, options.falloff, ao::Values(*ao::findMethod("none"))).inputs;
         return added;
     };
     if (!options.compare) {

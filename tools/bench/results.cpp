@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "app/complaint.h"
-#include "measure/draw.h"
+#include "app/statistics.h"
 
 namespace obscura::bench {
 
-using measure::digits;
+using app::digits;
 
 std::string Row::label() const {
     std::string text = method;

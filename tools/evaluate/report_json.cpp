@@ -1,26 +1,28 @@
 // Results as JSON rows.
 #include "report.h"
 
+#include "app/statistics.h"
+
 namespace obscura::evaluate {
 
 namespace {
 
 void putErrors(Json& json, const truth::Errors& errors) {
-    json["eA"] = measure::digits(errors.eA);
-    json["e5"] = measure::digits(errors.e5);
-    json["bias"] = measure::digits(errors.bias);
-    json["rmse"] = measure::digits(errors.rmse);
-    json["p99"] = measure::digits(errors.p99);
+    json["eA"] = app::digits(errors.eA);
+    json["e5"] = app::digits(errors.e5);
+    json["bias"] = app::digits(errors.bias);
+    json["rmse"] = app::digits(errors.rmse);
+    json["p99"] = app::digits(errors.p99);
 }
 
 void putMetrics(Json& json, const truth::Metrics& metrics) {
     putErrors(json, metrics.raw);
     if (metrics.perceptual) {
-        json["ssim"] = measure::digits(metrics.ssim);
-        json["flip"] = measure::digits(metrics.flipMean);
-        json["flipWeightedMedian"] = measure::digits(metrics.flipWeightedMedian);
+        json["ssim"] = app::digits(metrics.ssim);
+        json["flip"] = app::digits(metrics.flipMean);
+        json["flipWeightedMedian"] = app::digits(metrics.flipWeightedMedian);
     }
-    json["gamma"] = measure::digits(metrics.gamma);
+    json["gamma"] = app::digits(metrics.gamma);
     putErrors(json["adjusted"], metrics.adjusted);
     json["pixels"] = metrics.pixels;
 }
@@ -39,19 +41,19 @@ Json rowJson(const ShotResult& shot, const Row& row, const Options& options, con
     json["reference"] = reference.kind;
     json["scene"] = shot.scene;
     json["camera"] = shot.camera;
-    json["time"] = measure::digits(shot.time);
+    json["time"] = app::digits(shot.time);
     json["size"] = {shot.size.x, shot.size.y};
     json["guard"] = {shot.guard.x, shot.guard.y};
     if (shot.every > 1) json["every"] = shot.every;
     putMetrics(json, row.whole());
     for (size_t i = 1; i < row.regions.size(); ++i)
         putMetrics(json["regions"][truth::kRegionNames[size_t(row.regions[i].region)]], row.regions[i].metrics);
-    json["milliseconds"]["all"] = measure::digits(drawn.milliseconds);
+    json["milliseconds"]["all"] = app::digits(drawn.milliseconds);
     json["milliseconds"]["passes"] = Json::object();
-    for (const gpu::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = measure::digits(pass.milliseconds);
+    for (const gpu::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = app::digits(pass.milliseconds);
     if (reference.rays > 0.0f) {
-        json["referenceRays"] = measure::digits(reference.rays);
-        json["referenceError"] = measure::digits(reference.error);
+        json["referenceRays"] = app::digits(reference.rays);
+        json["referenceError"] = app::digits(reference.error);
     }
     json["device"] = about.device;
     json["frames"] = about.frames;

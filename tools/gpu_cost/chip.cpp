@@ -42,9 +42,10 @@ private:
 }  // namespace
 
 const std::vector<Chip>& chips() {
-    static const std::vector<Chip> kChips{{"navi21", "Radeon RX 6900 XT", 160, 2.25, 512, 16},
-        {"vega10", "Radeon RX Vega 64", 256, 1.546, 484, 10}, {"navi10", "Radeon RX 5700 XT", 80, 1.905, 448, 20},
-        {"polaris10", "Radeon RX 480", 144, 1.266, 256, 10}};
+    // By AMD's data sheets of the products; SIMDs are compute units times SIMDs of each.
+    static const std::vector<Chip> kChips{{"navi21", "Radeon RX 6900 XT", 80 * 2, 2.25, 512},
+        {"vega10", "Radeon RX Vega 64", 64 * 4, 1.546, 484}, {"navi10", "Radeon RX 5700 XT", 40 * 2, 1.905, 448},
+        {"polaris10", "Radeon RX 480", 36 * 4, 1.266, 256}};
     return kChips;
 }
 

@@ -15,11 +15,7 @@ struct Chip {
     double simds;         // each runs one wave's instruction a cycle
     double gigahertz;     // boost clock
     double gigabytes;     // a second, of device memory
-    double waves;         // a SIMD holds at most so many
 };
-// navi21: 80 compute units of 2 SIMDs, 2.25 GHz, 512 GB/s [AMD, Radeon RX 6900 XT]; vega10: 64 of 4, 1.546 GHz, 484 GB/s
-// [AMD, Radeon RX Vega 64]; navi10: 40 of 2, 1.905 GHz, 448 GB/s [AMD, Radeon RX 5700 XT]; polaris10: 36 of 4, 1.266 GHz, 256 GB/s
-// [AMD, Radeon RX 480].
 const std::vector<Chip>& chips();
 const Chip* findChip(const std::string& id);
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/pipeline_statistics.h"
 #include "gpu_cost/chip.h"
 #include "gpu_cost/workload.h"
 
@@ -36,7 +37,7 @@ struct MethodCost {
     double arithmeticMs = 0, memoryMs = 0;      // floors at the workload's size
 };
 
-// Compiles each different (shader, constants) once.
+// Compiles each shader as shipped, and with each set of fixed counts, once.
 class CostModel {
 public:
     // mostSamples: iterations that are unrolled; costs of more are extrapolated.
@@ -55,7 +56,8 @@ private:
     const Chip& m_chip;
     const gpu::ShaderLibrary& m_shaders;
     const uint32_t m_mostSamples;
-    std::map<std::string, Compiled> m_known;
+    std::map<std::string, gpu::PipelineStatistics> m_asShipped;  // by shader and specialization
+    std::map<std::string, Compiled> m_known;                     // and by push constants
 };
 
 }  // namespace obscura::gpu_cost

@@ -1,7 +1,6 @@
 #include "gpu_cost/report.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 
@@ -9,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/complaint.h"
+#include "app/statistics.h"
 
 namespace obscura::gpu_cost {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double digits(double value) { return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr); }
+using app::digits;
 
 std::string geometryOf(const ao::Values& values) {
     const char* const kLayers[] = {"", "thickness", "thickness, second layer at half size", "thickness, second layer"};
@@ -89,13 +88,13 @@ std::string jsonText(const std::vector<Table>& tables) {
         for (const Row& row : table.rows) {
             Json passes = Json::array();
             for (const PassCost& p : row.cost.passes)
-                passes.push_back({{"name", p.name}, {"shader", p.shader}, {"cycles", digits(p.cycles)}, {"fetches", digits(p.fetches)},
-                    {"bytes", digits(p.bytes)}, {"vgprs", p.registers}, {"spills", p.spills}, {"waves", p.waves},
-                    {"lds_bytes", p.sharedBytes}, {"guessed", p.loops}, {"fitted", p.fitted}});
+                passes.push_back({{"name", p.name}, {"shader", p.shader}, {"cycles", digits(p.cycles, 5)},
+                    {"fetches", digits(p.fetches, 5)}, {"bytes", digits(p.bytes, 5)}, {"vgprs", p.registers}, {"spills", p.spills},
+                    {"waves", p.waves}, {"lds_bytes", p.sharedBytes}, {"guessed", p.loops}, {"fitted", p.fitted}});
             rows.push_back({{"method", row.method}, {"preset", row.preset}, {"settings", row.settings}, {"baseline", row.baseline},
-                {"geometry", row.geometry}, {"cycles", digits(row.cost.cycles)}, {"fetches", digits(row.cost.fetches)},
-                {"bytes", digits(row.cost.bytes)}, {"vgprs", row.cost.registers}, {"waves", row.cost.waves},
-                {"ms_arithmetic", digits(row.cost.arithmeticMs)}, {"ms_memory", digits(row.cost.memoryMs)}, {"passes", passes}});
+                {"geometry", row.geometry}, {"cycles", digits(row.cost.cycles, 5)}, {"fetches", digits(row.cost.fetches, 5)},
+                {"bytes", digits(row.cost.bytes, 5)}, {"vgprs", row.cost.registers}, {"waves", row.cost.waves},
+                {"ms_arithmetic", digits(row.cost.arithmeticMs, 5)}, {"ms_memory", digits(row.cost.memoryMs, 5)}, {"passes", passes}});
         }
         all.push_back({{"chip", table.chip}, {"driver", table.driver}, {"falloff", table.falloff}, {"size", {table.width, table.height}},
             {"rows", rows}});

@@ -50,10 +50,4 @@ Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao:
     return drawing;
 }
 
-double digits(double value) {
-    if (value == 0.0 || !std::isfinite(value)) return 0.0;
-    const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::fabs(value))));
-    return std::round(value * scale) / scale;
-}
-
 }  // namespace obscura::measure

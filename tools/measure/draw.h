@@ -19,7 +19,4 @@ Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao:
 // Visibility that Machine::run() has read back, R16F. Throws app::Complaint, which begins with `drawn`, if a value is not finite.
 truth::Plane planeOf(const std::vector<std::byte>& halves, glm::uvec2 size, const std::string& drawn);
 
-// Rounded to six significant digits, the precision of float errors. Not finite: 0.
-double digits(double value);
-
 }  // namespace obscura::measure

@@ -21,7 +21,7 @@
 namespace obscura::tune {
 
 using Json = nlohmann::ordered_json;
-using measure::digits;
+using app::digits;
 
 namespace {
 

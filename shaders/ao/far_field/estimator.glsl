@@ -3,7 +3,7 @@
 // smaller angle. The occluder of an arc is a line from the point: the slab away from the camera as in the paper, the connection to the
 // previous point, or a blend. With phi = c - theta (c the line's direction, b its distance) the paper's four-dimensional table is exactly
 //     integral of rho cos(theta - d) sin(theta) = 1/2 (sin(2c - d) dA1 - cos(2c - d) dA2 + sin(d) dA0)
-// with differences of A0, A1, A2 (table.comp), two-dimensional. Include after declaring `table`, rgba32ui.
+// with differences of A0, A1, A2 (common/falloff_table.comp), two-dimensional. Include after declaring `table`, rgba32ui.
 #ifndef OBSCURA_FAR_FIELD_ESTIMATOR_GLSL
 #define OBSCURA_FAR_FIELD_ESTIMATOR_GLSL
 #include "ao/common/falloff_table.glsl"

@@ -40,7 +40,7 @@ Share shareOfPixel(View view, ivec2 p, Noise noise, uint directions, uint side) 
 
 // Start of a pixel's lines and the basis of their directions.
 struct Origin {
-    vec3 position;  // raised by `offset` footprints of a pixel [Dimitrov, eq. 13; see methods/horizon_split.cpp]
+    vec3 position;  // raised by `offset` footprints of a pixel [Dimitrov, eq. 13; see horizon_split.cpp]
     vec3 n, b, c;   // normal and two tangents
 };
 Origin originAt(View view, ivec2 texel, float z, vec3 n, float offset) {
@@ -65,7 +65,7 @@ Steps stepsOf(uint count, float radius, float spacing, float thickness) {
 float metresAt(Steps walk, float t) { return walk.radius * t * mix(1.0, t, walk.spacing); }
 
 // Texel of a word: H^2 of four directions, 8 bits each. Words of a pixel are side by side and below each other in one image; words per row:
-// wordColumns() of methods/horizon_split.cpp.
+// wordColumns() of horizon_split.cpp.
 ivec2 wordAt(ivec2 p, uint word, uvec2 visible) {
     uint columns = visible.x > 8192u ? 1u : visible.y > 4096u ? 6u : 2u;
     return p + ivec2(uvec2(word % columns, word / columns) * visible);
