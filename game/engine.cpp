@@ -85,11 +85,11 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
         for (size_t i = 0; i < methods.size(); ++i) {
             progress.at(i, methods[i]->id);
             // The library skips a method that this device cannot run and logs why; only the selected one must succeed.
-            if (!m_renderer->library().prepare(*methods[i]) && methods[i] == &options.choice.info())
+            if (!m_renderer->library().prepare(*methods[i], options.choice.falloff.kind) && methods[i] == &options.choice.info())
                 expect(gpu::Status::shaderError, "making the method's pipelines");
         }
     }
-    if (options.compare && !m_renderer->otherLibrary().prepare(options.compare->info()))
+    if (options.compare && !m_renderer->otherLibrary().prepare(options.compare->info(), options.choice.falloff.kind))
         expect(gpu::Status::shaderError, "making the second method's pipelines");
     started.pipelines += (app::now() - begun) * 1e-3;
 

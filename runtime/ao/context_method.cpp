@@ -55,7 +55,7 @@ Status choose(Context& context, const char* id, const MethodSettings& settings) 
     if (falloff.kind == FalloffKind::ramp && !(falloff.end > falloff.length))
         return invalid(fmt::format("MethodSettings::falloff.end is {}; a ramp ends beyond its length, {}", falloff.end, falloff.length));
     const uint64_t before = context.device->memoryUse();
-    if (!context.library->prepare(values)) return statusOf(context.device->failure());
+    if (!context.library->prepare(values, falloff.kind)) return statusOf(context.device->failure());
     context.methodBytes += context.device->memoryUse() - before;
     context.values = std::move(values);
     context.falloff = falloff;

@@ -74,27 +74,23 @@ float reach(const Falloff& falloff) {
     return falloff.kind == FalloffKind::ramp ? falloff.end : falloff.length;
 }
 
-// Coefficients in d: those in x = d / length, divided by powers of the length.
 shared::FalloffBlock falloffBlock(const Falloff& falloff) {
-    const double s = 1.0 / falloff.length;
-    shared::FalloffBlock block{1, 0, 0, 0, 0, 0, 0, reach(falloff)};
+    const double length = falloff.length, end = falloff.end;
+    shared::FalloffBlock block{1.0f, 0.0f, reach(falloff)};
     switch (falloff.kind) {
-        case FalloffKind::exponential: block.decay = float(1.4426950408889634 * s); break;
-        case FalloffKind::linear: block.c1 = float(-s); break;
-        case FalloffKind::quadratic: block.c2 = float(-s * s); break;
-        case FalloffKind::wendland:  // (1-x)^4 (4x+1) = 1 - 10 x^2 + 20 x^3 - 15 x^4 + 4 x^5
-            block.c2 = float(-10.0 * s * s);
-            block.c3 = float(20.0 * s * s * s);
-            block.c4 = float(-15.0 * s * s * s * s);
-            block.c5 = float(4.0 * s * s * s * s * s);
-            break;
+        case FalloffKind::exponential: block.slope = float(-1.4426950408889634 / length); break;
+        case FalloffKind::linear:
+        case FalloffKind::wendland: block.slope = float(-1.0 / length); break;
+        case FalloffKind::quadratic: block.slope = float(-1.0 / (length * length)); break;
         case FalloffKind::constant: break;
         case FalloffKind::ramp:
-            block.c0 = float(falloff.end / (double(falloff.end) - falloff.length));
-            block.c1 = float(-1.0 / (double(falloff.end) - falloff.length));
+            block.start = float(end / (end - length));
+            block.slope = float(-1.0 / (end - length));
             break;
     }
     return block;
 }
+
+gpu::Constant falloffConstant(FalloffKind kind) { return {OBSCURA_FALLOFF_KIND, uint32_t(kind)}; }
 
 }  // namespace obscura::ao

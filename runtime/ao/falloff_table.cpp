@@ -9,11 +9,13 @@ constexpr uint32_t kColumns = 64, kRows = 128;  // as in common/falloff_table.co
 
 }  // namespace
 
-gpu::Status FalloffTable::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffTable& out) {
+gpu::Status FalloffTable::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff, FalloffTable& out) {
     const gpu::Status status = gpu::Image::create(device,
         {VK_FORMAT_R32G32B32A32_UINT, kColumns, kRows, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}, "falloff table",
         out.m_table);
-    return status != gpu::Status::ok ? status : gpu::Program::compute(device, shaders, "ao/common/falloff_table.comp", {}, out.m_program);
+    return status != gpu::Status::ok
+               ? status
+               : gpu::Program::compute(device, shaders, "ao/common/falloff_table.comp", {falloffConstant(falloff)}, out.m_program);
 }
 
 graph::ImageId FalloffTable::add(graph::Graph& graph, const Inputs& inputs, const char* passName) {

@@ -22,28 +22,27 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 
 }  // namespace
 
-Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders)
-    : m_device(device), m_shaders(shaders), m_methods(registry().size()) {
+Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders) {
     m_valid = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
 }
 
 Library::~Library() = default;
 
-bool Library::prepare(const MethodInfo& info) { return makeMethod(Values(info)); }
+bool Library::prepare(const MethodInfo& info, FalloffKind falloff) { return makeMethod(Values(info), falloff); }
 
-bool Library::makeMethod(const Values& values) {
+bool Library::makeMethod(const Values& values, FalloffKind falloff) {
     if (!m_valid || values.index() == Values::kUnregistered) return false;
-    std::unique_ptr<Method>& method = m_methods[values.index()];
-    if (!method) method = registry()[values.index()].create(m_device, m_shaders);
+    std::unique_ptr<Method>& method = m_methods[{values.index(), falloff}];
+    if (!method) method = registry()[values.index()].create(m_device, m_shaders, falloff);
     return method != nullptr;
 }
 
-bool Library::prepare(const Values& values) {
-    if (!makeMethod(values)) return false;
-    if (m_offScreen || !values.has("offscreen") || OffScreen(values.count("offscreen")) == OffScreen::off) return true;
+bool Library::prepare(const Values& values, FalloffKind falloff) {
+    if (!makeMethod(values, falloff)) return false;
+    if (!values.has("offscreen") || OffScreen(values.count("offscreen")) == OffScreen::off || m_offScreen.contains(falloff)) return true;
     auto made = std::make_unique<OffScreenPass>();
-    if (OffScreenPass::create(m_device, m_shaders, *made) != Status::ok) return false;
-    m_offScreen = std::move(made);
+    if (OffScreenPass::create(m_device, m_shaders, falloff, *made) != Status::ok) return false;
+    m_offScreen[falloff] = std::move(made);
     return true;
 }
 
@@ -59,7 +58,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         m_device.log(gpu::Severity::error, std::string("obscurance: ") + reason);
         return {};
     }
-    if (!prepare(values)) return {};
+    if (!prepare(values, falloff.kind)) return {};
     view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
     const bool discard = frame.cut || m_last != &values.info();
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
@@ -72,13 +71,14 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         m_last = info;
         std::copy(eye.begin(), eye.end(), m_eyeFromWorld);
     });
-    const Method& method = *m_methods[values.index()];
+    Method& method = *m_methods.at({values.index(), falloff.kind});
     const MethodEntry& entry = registry()[values.index()];
-    graph::ImageId visibility = m_methods[values.index()]->add(graph, inputs, values);
+    graph::ImageId visibility = method.add(graph, inputs, values);
     const bool tracesItself = entry.needs && (entry.needs(values) & kVolume);
-    if (visibility && m_offScreen && values.has("offscreen") && !tracesItself)
-        visibility = m_offScreen->add(graph, inputs, visibility, method.blocking(inputs, values),
-            {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
+    if (visibility && values.has("offscreen") && OffScreen(values.count("offscreen")) != OffScreen::off && !tracesItself)
+        visibility = m_offScreen.at(falloff.kind)
+                         ->add(graph, inputs, visibility, method.blocking(inputs, values),
+                             {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
     if (!visibility || !values.info().needs) return {visibility, inputs};
     TemporalSettings temporal;
     temporal.history = values["temporal"];

@@ -2,8 +2,9 @@
 // (context.h) is built on it.
 #pragma once
 
+#include <map>
 #include <memory>
-#include <vector>
+#include <utility>
 
 #include "ao/method.h"
 #include "ao/offscreen.h"
@@ -18,9 +19,10 @@ public:
     ~Library();
 
     bool valid() const { return m_valid; }  // false: a pipeline that all methods need could not be made; logged
-    // Makes a method's pipelines; of values, also the off-screen pass's when these ask for it. False if any failed; logged.
-    bool prepare(const MethodInfo& info);
-    bool prepare(const Values& values);
+    // Makes a method's pipelines for a kind of falloff; of values, also the off-screen pass's when these ask for it. False if any failed;
+    // logged.
+    bool prepare(const MethodInfo& info, FalloffKind falloff);
+    bool prepare(const Values& values, FalloffKind falloff);
 
     // Adds the passes of prepare and of the values' method. No visibility, logged: the frame is invalid, or a pipeline cannot be made.
     struct Added {
@@ -31,15 +33,15 @@ public:
     void discardHistory() { m_last = nullptr; }  // the next frame begins without: as Frame::cut
 
 private:
-    bool makeMethod(const Values& values);
+    bool makeMethod(const Values& values, FalloffKind falloff);
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
     Prepare m_prepare;
-    std::unique_ptr<OffScreenPass> m_offScreen;  // null until values have asked for it
+    std::map<FalloffKind, std::unique_ptr<OffScreenPass>> m_offScreen;  // those that values have asked for
     Temporal m_temporal;
-    std::vector<std::unique_ptr<Method>> m_methods;  // by registry order, null until made
-    const MethodInfo* m_last = nullptr;              // the last recorded frame's; null: there is no history
-    float m_eyeFromWorld[16] = {};                   // the last recorded frame's
+    std::map<std::pair<size_t, FalloffKind>, std::unique_ptr<Method>> m_methods;  // by registry order; null: could not be made
+    const MethodInfo* m_last = nullptr;                                           // the last recorded frame's; null: there is no history
+    float m_eyeFromWorld[16] = {};                                                // the last recorded frame's
     bool m_valid = false;
 };
 

@@ -68,7 +68,8 @@ inline constexpr const char* kLayerModes[] = {"none", "thickness", "two, half si
 struct MethodEntry {
     const MethodInfo* info;
     // Null, with a log line, if a pipeline cannot be made.
-    std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders);
+    // For frames whose falloff is of that kind: pipelines know it.
+    std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff);
     // Needs of these values beyond the table's; may be null.
     uint32_t (*needs)(const Values& values) = nullptr;
 };
@@ -80,5 +81,6 @@ graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible, const char* pass
 std::span<const gpu::EmbeddedShader> shaders();  // this module's, for ShaderLibrary::add
 
 shared::FalloffBlock falloffBlock(const Falloff& falloff);
+gpu::Constant falloffConstant(FalloffKind kind);  // of shaders that include shared/falloff.h
 
 }  // namespace obscura::ao

@@ -22,7 +22,7 @@ struct OffScreenSettings {
 
 class OffScreenPass {
 public:
-    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, OffScreenPass& out);
+    static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff, OffScreenPass& out);
     // visibility: the method's, R16F, visible size. Returns a new image of the same kind with B subtracted. Without a volume: returns
     // `visibility` and logs one warning.
     graph::ImageId add(

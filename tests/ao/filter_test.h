@@ -1,6 +1,7 @@
 // Fixture: runs one shared pass (gather or temporal) on analytic surfaces.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -61,8 +62,8 @@ protected:
         inputs.motionScale[0] = inputs.motionScale[1] = 1.0f;
         const float rows[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -frame.advanced};
         std::copy_n(rows, 12, inputs.previousFromEye);
-        std::vector<uint16_t> halves;
-        for (const float v : visibility) halves.push_back(half(v));
+        std::vector<uint16_t> halves(visibility.size());
+        std::transform(visibility.begin(), visibility.end(), halves.begin(), half);
         const graph::ImageId source = image(kept[3], VK_FORMAT_R16_SFLOAT, kWidth, kHeight, halves);
 
         const graph::ImageId result = filter(m_graph, inputs, source);

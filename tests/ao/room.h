@@ -154,8 +154,8 @@ inline float halfToFloat(uint16_t h) {
 inline std::vector<float> halvesOf(std::span<const std::byte> bytes) {
     std::vector<uint16_t> halves(bytes.size() / 2);
     std::memcpy(halves.data(), bytes.data(), halves.size() * 2);
-    std::vector<float> floats;
-    for (const uint16_t h : halves) floats.push_back(halfToFloat(h));
+    std::vector<float> floats(halves.size());
+    std::transform(halves.begin(), halves.end(), floats.begin(), halfToFloat);
     return floats;
 }
 inline std::vector<float> halvesOf(const gpu::Buffer& buffer) { return halvesOf({buffer.mapped(), size_t(buffer.bytes())}); }

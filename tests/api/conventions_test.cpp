@@ -14,7 +14,6 @@ namespace {
 using test::Depth;
 using test::DepthCoding;
 using test::Geometry;
-using test::NormalCoding;
 using test::Shot;
 
 constexpr double kStep = 1.0 / 255.0;

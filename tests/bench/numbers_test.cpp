@@ -1,4 +1,5 @@
 // Pareto fronts, scaling exponents, comparisons, tables and lists of settings, on synthetic rows.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -177,8 +178,8 @@ TEST(Bench, tableMarksTheBestAndReplacesTheMarkedSection) {
 TEST(Bench, listsOfSettingsExpandToEveryCombination) {
     const auto list =
         measure::variants({"hbao", "hybrid"}, {"default"}, {"hbao.steps=4,8", "hbao.directions=2,3", "voxels=64,128", "temporal=0.5"});
-    std::vector<std::string> labels;
-    for (const measure::Candidate& candidate : list) labels.push_back(candidate.label());
+    std::vector<std::string> labels(list.size());
+    std::transform(list.begin(), list.end(), labels.begin(), [](const measure::Candidate& candidate) { return candidate.label(); });
     EXPECT_EQ(labels, (std::vector<std::string>{"hbao steps=4 directions=2 temporal=0.5", "hbao steps=4 directions=3 temporal=0.5",
                           "hbao steps=8 directions=2 temporal=0.5", "hbao steps=8 directions=3 temporal=0.5",
                           "hybrid voxels=64 temporal=0.5", "hybrid voxels=128 temporal=0.5"}));

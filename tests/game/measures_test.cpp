@@ -52,7 +52,7 @@ protected:
         std::vector<std::string> arguments{"--headless", "--scene", m_scene, "--falloff", "quadratic:1", "--view", "visibility",
             "--measure", "--out", (m_folder / out).string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const Ran ran = run(arguments);
+        Ran ran = run(arguments);
         EXPECT_EQ(ran.code, 0) << ran.err;
         return ran;
     }

@@ -169,6 +169,7 @@ TEST(ShaderCompiler, CompilesOnSeveralThreads) {
     const std::vector<uint32_t> expected = shaders.compile("ao/everything.comp").spirv;
     std::vector<std::vector<uint32_t>> results(4);
     std::vector<std::thread> threads;
+    threads.reserve(results.size());
     for (auto& result : results)
         threads.emplace_back([&] {
             Shader shader;

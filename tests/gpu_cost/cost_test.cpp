@@ -83,12 +83,13 @@ TEST(Cost, extrapolatedCyclesAgreeWithUnrolledOnes) {
     ao::Falloff falloff;
     ASSERT_TRUE(ao::parseFalloff("quadratic:2", falloff));
     const shared::FalloffBlock rho = ao::falloffBlock(falloff);
+    const gpu::Constant quadratic = ao::falloffConstant(falloff.kind);
     const auto costOf = [&](const char* shader, std::vector<gpu::Constant> specialization, const auto& constants, uint32_t mostSamples) {
         const auto bytes = std::as_bytes(std::span(&constants, 1));
         CostModel model(*compiler, chip, shaders, mostSamples);
         return model.costOf({64, 1, {{"pass", shader, std::move(specialization), {bytes.begin(), bytes.end()}, 64, 0}}});
     };
-    const auto check = [&](const char* shader, std::vector<gpu::Constant> specialization, const auto& constants) {
+    const auto check = [&](const char* shader, const std::vector<gpu::Constant>& specialization, const auto& constants) {
         const MethodCost unrolled = costOf(shader, specialization, constants, 100000),
                          fitted = costOf(shader, specialization, constants, 4);
         ASSERT_FALSE(unrolled.passes[0].fitted || unrolled.passes[0].loops) << shader;
@@ -97,9 +98,9 @@ TEST(Cost, extrapolatedCyclesAgreeWithUnrolledOnes) {
         EXPECT_NEAR(fitted.fetches, unrolled.fetches, 0.02 * unrolled.fetches + 1) << shader;
         std::printf("  %s: %.0f cycles unrolled, %.0f extrapolated\n", shader, unrolled.cycles, fitted.cycles);
     };
-    check("ao/gtao/horizons.comp", {{0, 0}}, shared::GtaoHorizons{rho, 9, 3, 3.3f, 2.2f, 0.03f, 0});
-    check("ao/layered/segments.comp", {}, shared::LayeredSegments{rho, 3, 18, 4096, 1, 1, 0.25f});
-    check("ao/hbao/horizons.comp", {}, shared::HbaoHorizons{rho, 16, 8, 0.17f, 4096, 0, 0, 0, 1});
+    check("ao/gtao/horizons.comp", {{0, 0}, quadratic}, shared::GtaoHorizons{rho, 9, 3, 3.3f, 2.2f, 0.03f, 0});
+    check("ao/layered/segments.comp", {quadratic}, shared::LayeredSegments{rho, 3, 18, 4096, 1, 1, 0.25f});
+    check("ao/hbao/horizons.comp", {quadratic}, shared::HbaoHorizons{rho, 16, 8, 0.17f, 4096, 0, 0, 0, 1});
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ public:
     }
 
     std::vector<Row> measure() {
-        for (const measure::Candidate& candidate : m_options.what.candidates)
-            m_machine.expectMethod(*m_shots.front().library, candidate.info());
+        for (const measure::FalloffChoice& falloff : m_options.what.falloffs)
+            for (const measure::Candidate& candidate : m_options.what.candidates)
+                m_machine.expectMethod(*m_shots.front().library, candidate.info(), falloff.falloff.kind);
         const uint32_t rounds = m_options.what.rounds;
         size_t done = 0, left = 0;
         for (const Cell& cell : m_cells) left += rounds - cell.row.rounds.size();

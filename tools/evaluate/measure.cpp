@@ -57,7 +57,9 @@ ShotResult measure(measure::Machine& machine, measure::Shot& shot, const Options
     result.every = options.rays.every;
     result.seconds.frame = shot.seconds;
 
-    for (const measure::Candidate& candidate : options.candidates) machine.expectMethod(*shot.library, candidate.info());
+    for (const measure::FalloffChoice& falloff : options.falloffs)
+        for (const measure::Candidate& candidate : options.candidates)
+            machine.expectMethod(*shot.library, candidate.info(), falloff.falloff.kind);
     measure::References references = measure::referencesOf(machine, shot, options);
     result.references = std::move(references.list);
     result.referencesFromCache = references.fromCache;

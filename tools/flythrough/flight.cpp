@@ -210,7 +210,7 @@ Flight::Drawn Flight::draw(const measure::Candidate& candidate, uint32_t frame, 
 Chunk Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter) {
     const measure::Candidate candidate = filtered(chosen, filter);
     Chunk chunk = empty(chosen, filter);
-    m_machine.expectMethod(m_renderer->library(), candidate.info());
+    m_machine.expectMethod(m_renderer->library(), candidate.info(), m_falloff.falloff.kind);
     const std::filesystem::path folder = m_settings.out / "frames" / chunk.name();
     if (m_settings.pictures) {
         chunk.pictures = "frames/" + chunk.name();

@@ -28,7 +28,8 @@ Workload workloadOf(gpu::Device& device, const gpu::ShaderLibrary& shaders, cons
     uint32_t width, uint32_t height) {
     constexpr uint32_t kCells = 128;
     ao::Library library(device, shaders);
-    if (!library.prepare(values)) throw app::Complaint(fmt::format("{}: its pipelines cannot be made", values.info().id), app::kFailed);
+    if (!library.prepare(values, falloff.kind))
+        throw app::Complaint(fmt::format("{}: its pipelines cannot be made", values.info().id), app::kFailed);
     ao::Frame frame = frameOf(width, height);
     frame.volume.cells = kCells;
     for (int i = 0; i < 3; ++i) frame.volume.cellFromEye[5 * i] = 1.0f / 0.14f, frame.volume.cellFromEye[12 + i] = kCells / 2;

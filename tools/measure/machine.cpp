@@ -38,8 +38,8 @@ truth::ScreenReference& Machine::screen() {
     return *m_screen;
 }
 
-void Machine::expectMethod(ao::Library& library, const ao::MethodInfo& info) {
-    if (!library.prepare(info)) expect(gpu::Status::shaderError, (std::string("making the pipelines of ") + info.id).c_str());
+void Machine::expectMethod(ao::Library& library, const ao::MethodInfo& info, ao::FalloffKind falloff) {
+    if (!library.prepare(info, falloff)) expect(gpu::Status::shaderError, (std::string("making the pipelines of ") + info.id).c_str());
 }
 
 Machine::Ran Machine::run(uint32_t warmUp, uint32_t timed, const Declare& declare) {

@@ -27,8 +27,8 @@ public:
     // Created on first use; throw app::Complaint.
     ao::Library& library();  // for captured frames
     truth::ScreenReference& screen();
-    // Makes the method's pipelines in `library`; throws app::Complaint.
-    void expectMethod(ao::Library& library, const ao::MethodInfo& info);
+    // Makes the method's pipelines for that kind of falloff in `library`; throws app::Complaint.
+    void expectMethod(ao::Library& library, const ao::MethodInfo& info, ao::FalloffKind falloff);
 
     // Renders frames that `declare` fills; `declare` returns the images to read back after the last one. Throws app::Complaint.
     using Declare = std::function<std::vector<graph::ImageId>(graph::Graph&, uint32_t frame)>;

@@ -82,7 +82,7 @@ struct FalloffTable {  // falloff_table.comp
     FalloffBlock falloff;
     float unit;            // metres: the falloff's length
 };
-OBSCURA_SHARED_SIZE(FalloffTable, 36);
+OBSCURA_SHARED_SIZE(FalloffTable, 16);
 
 OBSCURA_SHARED_END
 #endif

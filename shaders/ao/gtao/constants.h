@@ -13,7 +13,7 @@ struct GtaoHorizons {  // horizons.comp
     float least;           // lowest visibility
     uint rayAxis;          // slices are evenly spaced 0: on the screen, 1: around the view ray
 };
-OBSCURA_SHARED_SIZE(GtaoHorizons, 56);
+OBSCURA_SHARED_SIZE(GtaoHorizons, 36);
 
 OBSCURA_SHARED_END
 #endif

@@ -15,7 +15,7 @@ struct HbaoHorizons {  // horizons.comp
     uint sampleTest;       // 1: a sample counts only if it is above the tangent plane by the bias itself
     uint side;             // of the interleaving tile, px; 1: not interleaved
 };
-OBSCURA_SHARED_SIZE(HbaoHorizons, 64);
+OBSCURA_SHARED_SIZE(HbaoHorizons, 44);
 
 OBSCURA_SHARED_END
 #endif

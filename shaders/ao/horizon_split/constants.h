@@ -17,7 +17,7 @@ struct HorizonSplitMarch {  // horizons.comp and normal_rays*.comp
     float rayThickness;      // of surfaces, for normal rays, metres
     uint side;               // of the interleaving tile, px; 1: not interleaved
 };
-OBSCURA_SHARED_SIZE(HorizonSplitMarch, 72);
+OBSCURA_SHARED_SIZE(HorizonSplitMarch, 52);
 
 OBSCURA_SHARED_END
 #endif

@@ -15,7 +15,7 @@ struct HybridTrace {  // trace.comp
     float grain;           // side of a noise cell, in cells
     uint side;             // of the interleaving tile, map pixels; 1: not interleaved
 };
-OBSCURA_SHARED_SIZE(HybridTrace, 64);
+OBSCURA_SHARED_SIZE(HybridTrace, 44);
 
 OBSCURA_SHARED_END
 #endif

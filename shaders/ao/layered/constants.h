@@ -13,7 +13,7 @@ struct LayeredSegments {  // segments.comp
     uint map;              // image pixels per invocation, each way
     float assumed;         // thickness of everything with NO_LAYERS, metres
 };
-OBSCURA_SHARED_SIZE(LayeredSegments, 56);
+OBSCURA_SHARED_SIZE(LayeredSegments, 36);
 
 struct LayeredGather {  // gather.comp
     uint map;      // image pixels per share, each way

@@ -24,7 +24,7 @@ struct MultiResolutionSample {  // sample*.comp
     uint disk;             // 16 points on a disk instead of every other texel of a square
     uint side;             // of the interleaving tile, px; 1: not interleaved
 };
-OBSCURA_SHARED_SIZE(MultiResolutionSample, 80);
+OBSCURA_SHARED_SIZE(MultiResolutionSample, 64);
 
 struct MultiResolutionFilter {  // filter.comp
     ivec2 origin;

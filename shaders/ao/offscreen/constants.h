@@ -15,7 +15,7 @@ struct OffscreenTrace {  // trace.comp
     float reach;           // of Blocking: metres from the receiver
     float thickness;       // of Blocking: metres behind the visible surface
 };
-OBSCURA_SHARED_SIZE(OffscreenTrace, 64);
+OBSCURA_SHARED_SIZE(OffscreenTrace, 44);
 
 OBSCURA_SHARED_END
 #endif

@@ -12,7 +12,7 @@ struct VisibilityBitmaskSectors {  // sectors.comp
     float mipOffset;       // log2 of px up to which level 0 is read
     uint rayAxis;          // slices are evenly spaced 0: on the screen, 1: around the view ray
 };
-OBSCURA_SHARED_SIZE(VisibilityBitmaskSectors, 52);
+OBSCURA_SHARED_SIZE(VisibilityBitmaskSectors, 32);
 
 OBSCURA_SHARED_END
 #endif

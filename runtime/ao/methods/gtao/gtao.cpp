@@ -66,13 +66,14 @@ const MethodInfo kInfo{"gtao", "Ground-truth ambient occlusion",
 
 class Gtao final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Gtao>();
         for (uint32_t arcs = 0; arcs < 2; ++arcs) {
-            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp", {{0, arcs}}, result->m_horizons[arcs]) != gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp", {{0, arcs}, falloffConstant(falloff)},
+                    result->m_horizons[arcs]) != gpu::Status::ok)
                 return nullptr;
-            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp:DEPTH_LAYERS", {{0, arcs}}, result->m_layered[arcs]) !=
-                gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp:DEPTH_LAYERS", {{0, arcs}, falloffConstant(falloff)},
+                    result->m_layered[arcs]) != gpu::Status::ok)
                 return nullptr;
         }
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
@@ -84,7 +85,7 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const shared::GtaoHorizons constants{stretched(inputs.falloff, values["radius_scale"]), values.count("slices"),
+        const shared::GtaoHorizons constants{falloffBlock(stretched(inputs.falloffDesc, values["radius_scale"])), values.count("slices"),
             values.count("steps"), values["mip_offset"], values["power"], values["floor"], values.count("axis")};
         const graph::ImageId layers = m_layerPass.addIfGiven(graph, inputs, values);
         const graph::ImageId depths =
@@ -105,13 +106,7 @@ public:
     }
 
 private:
-    static shared::FalloffBlock stretched(shared::FalloffBlock rho, float factor) {
-        float power = 1.0f;
-        for (float* c : {&rho.c1, &rho.c2, &rho.c3, &rho.c4, &rho.c5}) *c /= power *= factor;
-        rho.decay /= factor;
-        rho.reach *= factor;
-        return rho;
-    }
+    static Falloff stretched(const Falloff& rho, float factor) { return {rho.kind, rho.length * factor, rho.end * factor}; }
 
     DepthMips m_depths;
     gpu::Program m_horizons[2], m_layered[2];  // by weighting

@@ -60,10 +60,13 @@ const MethodInfo kInfo{"hbao", "Horizon-based ambient occlusion",
 
 class Hbao final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Hbao>();
-        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp", {}, result->m_horizons) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp:DEPTH_LAYERS", {}, result->m_layered) != gpu::Status::ok)
+        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp", {falloffConstant(falloff)}, result->m_horizons) !=
+            gpu::Status::ok)
+            return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp:DEPTH_LAYERS", {falloffConstant(falloff)}, result->m_layered) !=
+            gpu::Status::ok)
             return nullptr;
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;

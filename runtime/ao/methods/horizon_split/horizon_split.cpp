@@ -93,7 +93,7 @@ uint32_t wordColumns(const shared::uvec2& visible) { return visible.x > 8192 ? 1
 
 class HorizonSplit final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<HorizonSplit>();
         const struct {
             const char* name;
@@ -104,7 +104,7 @@ public:
             {"ao/horizon_split/normal_rays_voxels.comp:VOLUME_NANOVDB", &result->m_voxelRays[1]},
             {"ao/horizon_split/normal_rays_layers.comp", &result->m_layerRays}, {"ao/horizon_split/blur.comp", &result->m_blur}};
         for (const auto& [name, program] : programs)
-            if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, name, {falloffConstant(falloff)}, *program) != gpu::Status::ok) return nullptr;
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
         if (Gather::create(device, shaders, result->m_gather) != Status::ok) return nullptr;

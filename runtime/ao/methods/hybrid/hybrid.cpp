@@ -58,10 +58,13 @@ const MethodInfo kInfo{"hybrid", "Hybrid ambient occlusion",
 
 class Hybrid final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Hybrid>();
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {}, result->m_trace[0]) != gpu::Status::ok) return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp:VOLUME_NANOVDB", {}, result->m_trace[1]) != gpu::Status::ok)
+        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {falloffConstant(falloff)}, result->m_trace[0]) !=
+            gpu::Status::ok)
+            return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp:VOLUME_NANOVDB", {falloffConstant(falloff)}, result->m_trace[1]) !=
+            gpu::Status::ok)
             return nullptr;
         if (Upsample::create(device, shaders, result->m_upsample) != Status::ok ||
             Gather::create(device, shaders, result->m_gather) != Status::ok)

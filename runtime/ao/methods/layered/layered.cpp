@@ -67,7 +67,7 @@ const MethodInfo kInfo{"layered", "Layered obscurance", "",
 
 class Layered final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Layered>();
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
         const struct {
@@ -77,7 +77,7 @@ public:
             {"ao/layered/segments.comp", &result->m_segments[1]}, {"ao/layered/segments.comp:TWO_LAYERS", &result->m_segments[2]},
             {"ao/layered/gather.comp", &result->m_gather[0]}, {"ao/layered/gather.comp:TO_MAP", &result->m_gather[1]}};
         for (const auto& [name, program] : programs)
-            if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+            if (gpu::Program::compute(device, shaders, name, {falloffConstant(falloff)}, *program) != gpu::Status::ok) return nullptr;
         return result;
     }
 

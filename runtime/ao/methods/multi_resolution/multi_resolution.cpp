@@ -102,7 +102,7 @@ Level coarser(const Level& fine) {
 
 class MultiResolution final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<MultiResolution>();
         const auto make = [&](const char* name, std::initializer_list<gpu::Constant> constants, gpu::Program& out) {
             return gpu::Program::compute(device, shaders, name, constants, out) == gpu::Status::ok;
@@ -110,11 +110,11 @@ public:
         bool made = make("ao/multi_resolution/downsample.comp", {}, result->m_downsample);
         for (const uint32_t directed : {0u, 1u}) {
             Programs& programs = result->m_programs[directed];
-            made = made && make("ao/multi_resolution/sample.comp", {{0, directed}}, programs.sample) &&
+            made = made && make("ao/multi_resolution/sample.comp", {{0, directed}, falloffConstant(falloff)}, programs.sample) &&
                    make("ao/multi_resolution/filter.comp", {{0, directed}}, programs.filter) &&
                    make("ao/multi_resolution/combine.comp", {{0, directed}}, programs.combine) &&
                    make("ao/multi_resolution/finish.comp", {{0, directed}}, programs.finish) &&
-                   make("ao/multi_resolution/sample_shared.comp", {{0, directed}}, programs.sampleShared) &&
+                   make("ao/multi_resolution/sample_shared.comp", {{0, directed}, falloffConstant(falloff)}, programs.sampleShared) &&
                    make("ao/multi_resolution/finish.comp:GATHERED", {{0, directed}}, programs.finishGathered);
         }
         made = made && Gather::create(device, shaders, result->m_gather) == Status::ok;

@@ -18,7 +18,7 @@ public:
 }  // namespace
 
 MethodEntry entry() {
-    return {&kInfo, [](gpu::Device&, const gpu::ShaderLibrary&) -> std::unique_ptr<Method> { return std::make_unique<None>(); }};
+    return {&kInfo, [](gpu::Device&, const gpu::ShaderLibrary&, FalloffKind) -> std::unique_ptr<Method> { return std::make_unique<None>(); }};
 }
 
 }  // namespace obscura::ao::none

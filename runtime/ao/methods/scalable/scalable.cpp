@@ -52,7 +52,7 @@ const MethodInfo kInfo{"scalable", "Scalable ambient obscurance", "McGuire, Mara
 
 class Scalable final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<Scalable>();
         for (uint32_t quads = 0; quads < 2; ++quads)
             if (gpu::Program::compute(device, shaders, "ao/scalable/spiral.comp", {{0, quads}}, result->m_spiral[quads]) != gpu::Status::ok)

@@ -76,7 +76,7 @@ std::vector<shared::vec4> kernelOf(const Falloff& falloff, uint32_t samples, boo
 
 class Ssao final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<Ssao>();
         if (gpu::Program::compute(device, shaders, "ao/ssao/points.comp", {}, result->m_points) != gpu::Status::ok) return nullptr;
         if (gpu::Program::compute(device, shaders, "ao/ssao/box.comp", {}, result->m_box) != gpu::Status::ok) return nullptr;

@@ -91,7 +91,7 @@ float quadraticReach(const Falloff& falloff) {
 
 class Statistical final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<Statistical>();
         bool created = StatisticalTables::create(device, shaders, result->m_tables) == Status::ok &&
                        Denoise::create(device, shaders, result->m_denoise) == Status::ok;

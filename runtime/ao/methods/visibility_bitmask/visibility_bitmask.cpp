@@ -53,11 +53,11 @@ const MethodInfo kInfo{"visibility_bitmask", "Visibility bitmask",
 
 class VisibilityBitmask final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<VisibilityBitmask>();
         for (uint32_t cosine = 0; cosine < 2; ++cosine)
-            if (gpu::Program::compute(device, shaders, "ao/visibility_bitmask/sectors.comp", {{0, cosine}}, result->m_sectors[cosine]) !=
-                gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders, "ao/visibility_bitmask/sectors.comp", {{0, cosine}, falloffConstant(falloff)},
+                    result->m_sectors[cosine]) != gpu::Status::ok)
                 return nullptr;
         if (DepthMips::create(device, shaders, DepthMips::Filter::farthest, result->m_depths) != Status::ok) return nullptr;
         if (EdgeBlur::create(device, shaders, result->m_edgeBlur) != Status::ok) return nullptr;

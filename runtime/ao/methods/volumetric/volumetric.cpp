@@ -54,7 +54,7 @@ const MethodInfo kInfo{"volumetric", "Volumetric obscurance", "Loos, Sloan: Volu
 
 class Volumetric final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<Volumetric>();
         if (gpu::Program::compute(device, shaders, "ao/volumetric/lines.comp", {}, result->m_lines) != gpu::Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;

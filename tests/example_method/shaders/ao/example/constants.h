@@ -9,7 +9,7 @@ struct ExampleSamples {  // samples.comp
     uint samples;
     float bias;  // least sine above the tangent plane
 };
-OBSCURA_SHARED_SIZE(ExampleSamples, 40);
+OBSCURA_SHARED_SIZE(ExampleSamples, 20);
 
 OBSCURA_SHARED_END
 #endif

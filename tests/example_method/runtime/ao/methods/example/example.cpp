@@ -21,9 +21,11 @@ const MethodInfo kInfo{"example", "Example", "", "Mean of what rises above the t
 
 class Example final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Example>();
-        if (gpu::Program::compute(device, shaders, "ao/example/samples.comp", {}, result->m_samples) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/example/samples.comp", {falloffConstant(falloff)}, result->m_samples) !=
+            gpu::Status::ok)
+            return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
         return result;
     }
