@@ -9,13 +9,11 @@ constexpr uint32_t kColumns = 64, kRows = 128;  // as in common/falloff_table.co
 
 }  // namespace
 
-gpu::Status FalloffTable::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff, FalloffTable& out) {
+gpu::Status FalloffTable::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffTable& out) {
     const gpu::Status status = gpu::Image::create(device,
         {VK_FORMAT_R32G32B32A32_UINT, kColumns, kRows, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}, "falloff table",
         out.m_table);
-    return status != gpu::Status::ok
-               ? status
-               : gpu::Program::compute(device, shaders, "ao/common/falloff_table.comp", {falloffConstant(falloff)}, out.m_program);
+    return status != gpu::Status::ok ? status : gpu::Program::compute(device, shaders, "ao/common/falloff_table.comp", {}, out.m_program);
 }
 
 graph::ImageId FalloffTable::add(graph::Graph& graph, const Inputs& inputs, const char* passName) {
@@ -26,7 +24,10 @@ graph::ImageId FalloffTable::add(graph::Graph& graph, const Inputs& inputs, cons
     external.layoutAfter = VK_IMAGE_LAYOUT_GENERAL;
     const graph::ImageId table = graph.import("falloff table", external);
     if (!same) {
-        graph.pass(passName, m_program).write(table).constants(shared::FalloffTable{inputs.falloff, f.length}).dispatch(kRows);
+        graph.pass(passName, m_program)
+            .write(table)
+            .constants(shared::FalloffTable{inputs.falloff, f.length, uint32_t(f.kind)})
+            .dispatch(kRows);
         graph.onRecorded([this, f] {
             m_falloff = f;
             m_filled = true;

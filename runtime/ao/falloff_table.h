@@ -9,7 +9,7 @@ namespace obscura::ao {
 // changes, so the cost per frame does not depend on the falloff.
 class FalloffTable {
 public:
-    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff, FalloffTable& out);
+    static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffTable& out);
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const char* passName);
 
 private:

@@ -28,17 +28,18 @@ Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_dev
 
 Library::~Library() = default;
 
-bool Library::prepare(const MethodInfo& info, FalloffKind falloff) { return makeMethod(Values(info), falloff); }
+bool Library::prepare(const MethodInfo& info, FalloffKind falloff) { return methodOf(Values(info), falloff) != nullptr; }
 
-bool Library::makeMethod(const Values& values, FalloffKind falloff) {
-    if (!m_valid || values.index() == Values::kUnregistered) return false;
-    std::unique_ptr<Method>& method = m_methods[{values.index(), falloff}];
-    if (!method) method = registry()[values.index()].create(m_device, m_shaders, falloff);
-    return method != nullptr;
+Method* Library::methodOf(const Values& values, FalloffKind falloff) {
+    if (!m_valid || values.index() == Values::kUnregistered) return nullptr;
+    const MethodEntry& entry = registry()[values.index()];
+    std::unique_ptr<Method>& method = m_methods[{values.index(), entry.perFalloff ? falloff : FalloffKind{}}];
+    if (!method) method = entry.create(m_device, m_shaders, falloff);
+    return method.get();
 }
 
 bool Library::prepare(const Values& values, FalloffKind falloff) {
-    if (!makeMethod(values, falloff)) return false;
+    if (!methodOf(values, falloff)) return false;
     if (!values.has("offscreen") || OffScreen(values.count("offscreen")) == OffScreen::off || m_offScreen.contains(falloff)) return true;
     auto made = std::make_unique<OffScreenPass>();
     if (OffScreenPass::create(m_device, m_shaders, falloff, *made) != Status::ok) return false;
@@ -71,7 +72,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         m_last = info;
         std::copy(eye.begin(), eye.end(), m_eyeFromWorld);
     });
-    Method& method = *m_methods.at({values.index(), falloff.kind});
+    Method& method = *methodOf(values, falloff.kind);
     const MethodEntry& entry = registry()[values.index()];
     graph::ImageId visibility = method.add(graph, inputs, values);
     const bool tracesItself = entry.needs && (entry.needs(values) & kVolume);

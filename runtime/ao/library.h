@@ -33,7 +33,7 @@ public:
     void discardHistory() { m_last = nullptr; }  // the next frame begins without: as Frame::cut
 
 private:
-    bool makeMethod(const Values& values, FalloffKind falloff);
+    Method* methodOf(const Values& values, FalloffKind falloff);  // made if need be; null: cannot be
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
     Prepare m_prepare;

@@ -68,10 +68,11 @@ inline constexpr const char* kLayerModes[] = {"none", "thickness", "two, half si
 struct MethodEntry {
     const MethodInfo* info;
     // Null, with a log line, if a pipeline cannot be made.
-    // For frames whose falloff is of that kind: pipelines know it.
+    // For frames whose falloff is of that kind; see perFalloff.
     std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff);
     // Needs of these values beyond the table's; may be null.
     uint32_t (*needs)(const Values& values) = nullptr;
+    bool perFalloff = true;  // pipelines contain the kind of falloff (falloffConstant()): one object for each kind
 };
 std::span<const MethodEntry> registry();
 

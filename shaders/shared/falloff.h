@@ -20,14 +20,15 @@ OBSCURA_SHARED_END
 layout(constant_id = OBSCURA_FALLOFF_KIND) const uint kFalloffKind = 0u;
 const uint kExponential = 0u, kLinear = 1u, kQuadratic = 2u, kWendland = 3u, kConstant = 4u, kRamp = 5u;  // FalloffKind of ao.h
 
-float falloff(FalloffBlock f, float d) {
-    if (kFalloffKind == kExponential) return d <= f.reach ? exp2(f.slope * d) : 0.0;
-    if (kFalloffKind == kConstant) return d <= f.reach ? 1.0 : 0.0;
-    if (kFalloffKind == kQuadratic) return clamp(1.0 + f.slope * d * d, 0.0, 1.0);
-    if (kFalloffKind == kRamp) return clamp(f.start + f.slope * d, 0.0, 1.0);
+float falloffOf(uint kind, FalloffBlock f, float d) {
+    if (kind == kExponential) return d <= f.reach ? exp2(f.slope * d) : 0.0;
+    if (kind == kConstant) return d <= f.reach ? 1.0 : 0.0;
+    if (kind == kQuadratic) return clamp(1.0 + f.slope * d * d, 0.0, 1.0);
+    if (kind == kRamp) return clamp(f.start + f.slope * d, 0.0, 1.0);
     float y = clamp(1.0 + f.slope * d, 0.0, 1.0), y2 = y * y;
-    return kFalloffKind == kWendland ? y2 * y2 * (5.0 - 4.0 * y) : y;  // (1-x)^4 (4x+1), x = d / length
+    return kind == kWendland ? y2 * y2 * (5.0 - 4.0 * y) : y;  // (1-x)^4 (4x+1), x = d / length
 }
+float falloff(FalloffBlock f, float d) { return falloffOf(kFalloffKind, f, d); }
 #endif
 
 #endif

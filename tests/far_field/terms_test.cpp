@@ -23,7 +23,7 @@ protected:
         ao::Inputs inputs;
         EXPECT_TRUE(ao::parseFalloff(text, inputs.falloffDesc));
         ao::FalloffTable table;
-        EXPECT_EQ(ao::FalloffTable::create(m_device, m_shaders, inputs.falloffDesc.kind, table), gpu::Status::ok);
+        EXPECT_EQ(ao::FalloffTable::create(m_device, m_shaders, table), gpu::Status::ok);
         inputs.falloff = ao::falloffBlock(inputs.falloffDesc);
         Table result;
         result.halves.resize(size_t(kColumns) * kRows * 8);

@@ -23,7 +23,7 @@ std::vector<std::byte> contents(gpu::Device& device, VkBuffer source, uint64_t b
     return {back.mapped(), back.mapped() + bytes};
 }
 
-void compareWithCpu(std::shared_ptr<const scene::Model> model) {
+void compareWithCpu(const std::shared_ptr<const scene::Model>& model) {
     gpu::ShaderLibrary shaders;
     shaders.add(render::shaders());
     render::Deform deform;

@@ -95,6 +95,7 @@ protected:
         gridBlock.shift = {uint32_t(origin.x), uint32_t(origin.y), uint32_t(origin.z), 0};
 
         std::vector<glm::vec4> places;  // every cell of the window, then random cells in and around it
+        places.reserve(64 * 64 * 64 + 40000);
         for (int i = 0; i < 64 * 64 * 64; ++i)
             places.emplace_back(float(i / 4096) + 0.5f, float(i / 64 % 64) + 0.5f, float(i % 64) + 0.5f, 0.0f);
         std::mt19937 random(5);

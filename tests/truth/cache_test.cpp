@@ -191,7 +191,7 @@ TEST(Cache, folderComesFromTheEnvironment) {
             if ((had[i] = old)) saved[i] = old;
             values[i] ? setenv(names[i], values[i], 1) : unsetenv(names[i]);
         }
-        const std::filesystem::path folder = scene::cacheFolder();
+        std::filesystem::path folder = scene::cacheFolder();
         for (int i = 0; i < 3; ++i) had[i] ? setenv(names[i], saved[i].c_str(), 1) : unsetenv(names[i]);
         return folder;
     };

@@ -43,8 +43,8 @@ TEST(WorldReference, openPlaneIsOpen) {
     Shapes shapes;
     shapes.quad({0, 0, 0}, {100, 0, 0}, {0, 100, 0});
     const WorldReference world(shapes.posed());
-    std::vector<Receiver> receivers;
-    for (int i = 0; i < 100; ++i) receivers.push_back({{0.37f * float(i) - 18.0f, 0.11f * float(i), 0.0f}, {0, 0, 1}});
+    std::vector<Receiver> receivers(100);
+    for (int i = 0; i < 100; ++i) receivers[size_t(i)] = {{0.37f * float(i) - 18.0f, 0.11f * float(i), 0.0f}, {0, 0, 1}};
     const std::vector falloffs{rayFalloff("constant:10")};
     const Reference reference = world.trace(receivers, falloffs, rays(256));
     for (const float value : reference.channels[0].obscurance.values) EXPECT_EQ(value, 0.0f);

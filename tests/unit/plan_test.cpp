@@ -23,7 +23,7 @@ struct Sketch {
             .initial = {state},
             .output = output});
     }
-    uint32_t history(const char* name, State state, bool output) {
+    uint32_t history(const char* name, const State& state, bool output) {
         const uint32_t index = imported(name, state, output);
         recording.resources[index].origin = Origin::history;
         return index;
@@ -277,7 +277,7 @@ TEST(Plan, planIsDeterministic) {
     s.pass("a", {write(a)});
     s.pass("b", {read(a), write(b)}, true);
     EXPECT_EQ(s.text(), s.text());
-    EXPECT_NE(plan(s.recording).dot(s.recording).find("a"), std::string::npos);
+    EXPECT_NE(plan(s.recording).dot(s.recording).find('a'), std::string::npos);
 }
 
 }  // namespace

@@ -154,6 +154,7 @@ Geometry makeCornice(float y, float projection) {
         {projection - 0.03f, 0.085f}, {0.6f * projection, 0.12f}, {0.45f * projection, 0.17f}, {0.4f * projection, 0.18f},
         {0.4f * projection, 0.23f}, {0.15f * projection, 0.29f}, {0.12f * projection, 0.42f}, {-0.1f, 0.44f}};
     std::vector<Ring> rings;
+    rings.reserve(steps.size() + 1);
     for (const Step& step : steps) rings.push_back(rectangle(kFaceX - step.out, kFaceZ - step.out, y - step.down));
     rings.push_back(rings.front());
     return finished(loft(rings), 2.0f);

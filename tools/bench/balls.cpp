@@ -33,7 +33,7 @@ std::filesystem::path writeBalls(uint64_t triangles, const std::filesystem::path
         scene.addNode({.name = "ball " + std::to_string(i), .translation = {at.x, kRadius, at.y}, .mesh = ballMesh});
     }
     scene.addCamera({.name = "view"}, {4.0f, 3.5f, 7.5f}, {0.0f, 0.4f, -0.5f});
-    const std::filesystem::path file = folder / ("balls-" + std::to_string(triangles) + ".glb");
+    std::filesystem::path file = folder / ("balls-" + std::to_string(triangles) + ".glb");
     const std::vector<uint8_t> bytes = kit::writeGlb(scene);
     app::writeFile(file, std::as_bytes(std::span(bytes)));
     return file;

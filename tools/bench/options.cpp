@@ -107,7 +107,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         cli.add_option("--gpu-cost", chips,
                "Instead of measuring, count cycles, registers, fetches and bytes of every preset on these chips: navi21, vega10, "
                "navi10, polaris10; several with commas (navi21,vega10)")
-            ->expected(0, 1)
+            ->expected(0, -1)
             ->delimiter(',');
     auto* check = cli.add_option("--check-gpu-cost", options.checkGpuCost,
         "Compare these costs with a baseline; fail if a pass takes over 3 % more cycles, fits fewer waves, or spills more");

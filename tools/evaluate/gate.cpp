@@ -12,7 +12,6 @@
 namespace obscura::evaluate {
 
 namespace fs = std::filesystem;
-using app::Complaint;
 
 namespace {
 

@@ -123,6 +123,7 @@ std::vector<Chunk> joined(std::vector<Chunk> chunks) {
     }
     std::sort(order.begin(), order.end());
     std::vector<Chunk> list;
+    list.reserve(order.size());
     for (const std::string& name : order) list.push_back(std::move(whole[name]));
     return list;
 }

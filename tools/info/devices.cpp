@@ -132,6 +132,7 @@ std::vector<DeviceReport> reportDevices(PFN_vkGetInstanceProcAddr load, std::str
     enumerate(vk.instance, &count, devices.data());
     devices.resize(count);
     std::vector<DeviceReport> reports;
+    reports.reserve(devices.size());
     for (VkPhysicalDevice device : devices) reports.push_back(report(vk, device));
     vk.get<PFN_vkDestroyInstance>("vkDestroyInstance")(vk.instance, nullptr);
     return reports;

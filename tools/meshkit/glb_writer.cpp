@@ -135,8 +135,8 @@ Primitive Writer::writePrimitive(int geometryIndex, std::uint32_t slot) {
         }
     }
     const auto gather = [&](const auto& pick) {
-        std::vector<glm::vec3> result;
-        for (std::uint32_t source : sources) result.push_back(pick(source));
+        std::vector<glm::vec3> result(sources.size());
+        std::transform(sources.begin(), sources.end(), result.begin(), pick);
         return result;
     };
 

@@ -35,6 +35,7 @@ Mesh makeLeg() {
     const std::vector<Step> steps{{0.0f, 0.0f, kRubber}, {0.93f, 0.0f, kRubber}, {1.0f, 0.006f, kRubber}, {1.0f, 0.014f, kPaint},
         {0.97f, 0.026f, kPaint}, {0.82f, 0.042f, kPaint}, {0.5f, 0.054f, kPaint}, {0.0f, 0.057f, kPaint}};
     std::vector<Ring> rings;
+    rings.reserve(steps.size());
     for (const Step& step : steps)
         rings.push_back(superellipse(glm::vec2(0.05f, 0.074f) * step.scale, 2.4f, step.y, 14, glm::vec2(0.0f, 0.02f * step.scale)));
     mesh.append(loft(rings, [&](std::size_t ring, std::size_t) { return steps[ring].slot; }));

@@ -57,6 +57,7 @@ Geometry makeJaw() {
         {1.0f, 0.05f, kPaint}, {1.0f, 0.074f, kChrome}, {1.045f, 0.08f, kChrome}, {1.05f, 0.092f, kChrome}, {1.02f, 0.099f, kChrome},
         {0.93f, 0.098f, kChrome}, {0.9f, 0.088f, kMouth}, {0.84f, 0.052f, kMouth}, {0.66f, 0.03f, kMouth}, {0.0f, 0.026f, kMouth}};
     std::vector<Ring> rings;
+    rings.reserve(steps.size());
     for (const Step& step : steps) rings.push_back(superellipse(kBodyHalf * step.scale, kBodyExponent, step.y, kBodySegments));
     Mesh mesh = loft(rings, [&](std::size_t ring, std::size_t) { return steps[ring].slot; });
 

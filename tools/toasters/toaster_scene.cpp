@@ -168,8 +168,8 @@ void Builder::addToy(int index, const Script& script) {
 
     const ToyMotion motion(script, kTrayFloor);
     const std::vector<float> times = sampleTimes(kDuration, kSampleRate);
-    std::vector<ToyPose> poses;
-    for (float time : times) poses.push_back(motion.at(time));
+    std::vector<ToyPose> poses(times.size());
+    std::transform(times.begin(), times.end(), poses.begin(), [&](float time) { return motion.at(time); });
     // The loop closes exactly, not only up to rounding.
     poses.back() = poses.front();
     const auto pose = [&](float time) -> const ToyPose& { return poses[static_cast<std::size_t>(std::lround(time * kSampleRate))]; };

@@ -81,8 +81,9 @@ OBSCURA_SHARED_SIZE(Upsample, 12);
 struct FalloffTable {  // falloff_table.comp
     FalloffBlock falloff;
     float unit;            // metres: the falloff's length
+    uint kind;
 };
-OBSCURA_SHARED_SIZE(FalloffTable, 16);
+OBSCURA_SHARED_SIZE(FalloffTable, 20);
 
 OBSCURA_SHARED_END
 #endif

@@ -25,7 +25,7 @@ void main() {
         vec3 sum = vec3(0.0);
         for (uint i = 0u; i < kSteps; ++i) {
             float t = (float(column * kSteps + i) + 0.5) * step;
-            float weight = row + 1u < kTableRows ? falloff(rho, b / max(sin(t), 1e-9)) : 0.0;
+            float weight = row + 1u < kTableRows ? falloffOf(constants.kind, rho, b / max(sin(t), 1e-9)) : 0.0;
             sum += weight * vec3(1.0, cos(2.0 * t), sin(2.0 * t));
         }
         vec3 after = before + sum * step;

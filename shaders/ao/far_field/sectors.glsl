@@ -146,29 +146,24 @@ vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth
         uint i = 0u, j = at.first,
              end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of near-field occlusion; its horizon rises anyway
-        // Search for the next point that counts, then add it, so that neighbouring pixels diverge less. Loops are post-tested: llvmpipe
-        // runs a pre-tested loop once more with every lane masked.
+        // Search for the next point that counts, then add it, so that neighbouring pixels diverge less. Neither search is inside a branch:
+        // SwiftShader loses lanes of a loop that only some lanes enter.
         Found found = Found(vec2(0.0), 0.0, false), before = found;
-        while (true) {
-            bool isFar = true;
-            if (i < c.taps) {
-                while (true) {
-                    before = found;
-                    found = nearPoint(occlusion, s, r, i++, nearest, skyDepth);
-                    if (found.valid || i >= c.taps) break;
-                }
-                isFar = !found.valid;
+        do {
+            bool hit = false;
+            while (!hit && i < c.taps) {
+                before = found;
+                found = nearPoint(occlusion, s, r, i++, nearest, skyDepth);
+                hit = found.valid;
             }
-            if (isFar && j < end) {
-                while (true) {
-                    before = found;
-                    found = farPoint(occlusion, s, r, at, c, j, low, low + step, skyDepth);
-                    if (found.valid || j >= end) break;
-                }
+            bool isFar = !hit;
+            while (!hit && j < end) {
+                before = found;
+                found = farPoint(occlusion, s, r, at, c, j, low, low + step, skyDepth);
+                hit = found.valid;
             }
             add(occlusion, s, c, found, before, isFar ? 1.0 : share);
-            if (i >= c.taps && j >= end) break;
-        }
+        } while (i < c.taps || j < end);
         sum += s.weight * vec2(blockedOf(occlusion), 1.0);
         low += step;
         along = mat2(turn.next, vec2(-turn.next.y, turn.next.x)) * along;

@@ -112,9 +112,9 @@ const MethodInfo kInfo{"far_field", "Far-field ambient obscurance", "Timonen: Sc
 
 class FarField final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<FarField>();
-        if (FalloffTable::create(device, shaders, falloff, result->m_table) != gpu::Status::ok) return nullptr;
+        if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         for (uint32_t i = 0; i < 4; ++i) {
             const bool thin = i == uint32_t(Averaging::none) || i == uint32_t(Averaging::direct);
             const auto make = [&](const char* pass, std::initializer_list<gpu::Constant> constants, gpu::Program& program) {
@@ -318,6 +318,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &FarField::create}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &FarField::create, .perFalloff = false}; }
 
 }  // namespace obscura::ao::far_field

@@ -36,9 +36,9 @@ const MethodInfo kInfo{"mipmap", "Mipmapped ambient obscurance", "Timonen: Scree
 
 class Mipmap final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<Mipmap>();
-        if (FalloffTable::create(device, shaders, falloff, result->m_table) != gpu::Status::ok) return nullptr;
+        if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         const struct {
             const char* name;
             gpu::Program* program;
@@ -92,6 +92,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Mipmap::create}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &Mipmap::create, .perFalloff = false}; }
 
 }  // namespace obscura::ao::mipmap

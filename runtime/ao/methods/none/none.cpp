@@ -18,7 +18,10 @@ public:
 }  // namespace
 
 MethodEntry entry() {
-    return {&kInfo, [](gpu::Device&, const gpu::ShaderLibrary&, FalloffKind) -> std::unique_ptr<Method> { return std::make_unique<None>(); }};
+    const auto create = [](gpu::Device&, const gpu::ShaderLibrary&, FalloffKind) -> std::unique_ptr<Method> {
+        return std::make_unique<None>();
+    };
+    return {.info = &kInfo, .create = create, .perFalloff = false};
 }
 
 }  // namespace obscura::ao::none

@@ -105,6 +105,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Scalable::create}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &Scalable::create, .perFalloff = false}; }
 
 }  // namespace obscura::ao::scalable

@@ -119,6 +119,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Ssao::create}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &Ssao::create, .perFalloff = false}; }
 
 }  // namespace obscura::ao::ssao

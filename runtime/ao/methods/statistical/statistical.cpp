@@ -185,6 +185,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Statistical::create}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &Statistical::create, .perFalloff = false}; }
 
 }  // namespace obscura::ao::statistical

@@ -89,6 +89,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Volumetric::create}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &Volumetric::create, .perFalloff = false}; }
 
 }  // namespace obscura::ao::volumetric
