@@ -49,7 +49,8 @@ protected:
             "layout(push_constant) uniform Constants { uint count; };\n"
             "void main() { for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) to[i] = from[i]; }\n",
             {}, m_read);
-        program("windows.comp", R"(#include "ao/statistical/fixed_point.h"
+        program("windows.comp", R"(#extension GL_EXT_control_flow_attributes : require
+#include "ao/statistical/fixed_point.h"
 #include "ao/statistical/window.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, std140) uniform ViewBlock { View viewBlock; };
@@ -68,7 +69,9 @@ void main() {
     vec2 pixel = vec2(p + view.guard) + 0.5;
     float z = imageLoad(depth, ivec2(p + view.guard)).x, reach = halfWindow(view, box, z) / float(box.texelSide);
     vec2 centre = pixel / float(box.texelSide);
-    vec4 sum = sumRoot(0u, axisOf(centre.x, reach, size.x), axisOf(centre.y, reach, size.y), size.x + 1u)[0];
+    Column c = columnAt(centre, reach, size, 0u);
+    vec4 sum = vec4(sumRoot(0u, c, size, vec3(1, 0, 0)).height.x, sumRoot(0u, c, size, vec3(0, 1, 0)).height.x,
+        sumRoot(0u, c, size, vec3(0, 0, 1)).height.x, sumRoot(0u, c, size, vec3(0)).count.x);
     float perMetre = unitsPerMetre(view, box, extent);
     units = perMetre;
     windows[p.y * view.visible.x + p.x] = vec4(sum.xyz / perMetre / sum.w - eyePosition(view, pixel, z), sum.w);

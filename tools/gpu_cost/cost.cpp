@@ -43,6 +43,8 @@ const Loops kLoops[] = {
         OBSCURA_FIELD(HorizonSplitMarch, side)},
     {"ao/horizon_split/normal_rays_layers.comp", OBSCURA_FIELD(HorizonSplitMarch, directions), OBSCURA_FIELD(HorizonSplitMarch, steps),
         OBSCURA_FIELD(HorizonSplitMarch, side)},
+    {"ao/statistical/evaluate.comp"},
+    {"ao/statistical/uniform.comp"},
     {"ao/ssao/"},
     {"ao/volumetric/"},
     {"ao/scalable/"},

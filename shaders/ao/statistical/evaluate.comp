@@ -2,11 +2,10 @@
 // layers one has a table; the other is its parent's table minus that.
 // In: depth, normals, extent, tables (unused ones are bound to the root). Out: visibility, R16F.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #include "ao/statistical/constants.h"
-#include "ao/statistical/fixed_point.h"
 #include "ao/statistical/window.glsl"
-#include "shared/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
@@ -36,44 +35,37 @@ void main() {
         imageStore(visibility, p, vec4(1.0));
         return;
     }
-    vec2 pixel = vec2(texel) + 0.5;
-    Shape shape;
-    shape.here = eyePosition(view, pixel, z);
-    shape.n = unpackNormal(imageLoad(normals, texel).x);
-    if (dot(shape.n, towardsEye(view, shape.here)) < 0.0) shape.n = -shape.n;
-    shape.metres = 1.0 / unitsPerMetre(view, box, extent);
-    shape.height = boxHeight(view, box, z);
-    shape.slope = constants.slope;
-
-    vec2 centre = pixel / float(box.texelSide);
+    vec2 pixel = vec2(texel) + 0.5, centre = pixel / float(box.texelSide);
+    Shape shape = shapeOf(view, box, extent, pixel, z, imageLoad(normals, texel).x, constants.slope);
     float reach = halfWindow(view, box, z) / float(box.texelSide);
-    Axis x = axisOf(centre.x, reach, constants.size.x), y = axisOf(centre.y, reach, constants.size.y);
-    uint pitch = constants.size.x + 1u;
-    // Level by level: each parent becomes its farther half by subtracting its nearer one.
-    mat4 furthest = sumRoot(0u, x, y, pitch), near, middle, far;  // sums of up to four layers
-    vec4 count = counts(furthest), blocked = vec4(0.0);
-    if (layers >= 2u) {
-        near = sumFirst(0u, x, y, pitch);
-        furthest -= near;
+    float blocked = 0.0, cells = 0.0;  // blocked fractions added up over cells that are not empty, and their number
+    [[dont_unroll]] for (uint column = 0u; column < split; ++column) {
+        Column c = columnAt(centre, reach, constants.size, column);
+        vec2 cell = cellsOf(c);
+        cells += cell.x + cell.y;
+        Sums whole = sumRoot(0u, c, constants.size, shape.up);
+        vec2 perPixel = cell / max(whole.count, 0.25);
+        if (layers == 1u) {
+            blocked += dot(blockedBy(whole, shape), perPixel);
+        } else {
+            Sums near = sumFirst(0u, c, constants.size, shape.up), far = minus(whole, near);
+            if (layers == 2u) {
+                blocked += dot(blockedBy(near, shape) + blockedBy(far, shape), perPixel);
+            } else {
+                [[dont_unroll]] for (uint i = 0u; i < 2u; ++i) {
+                    Sums nearer = sumSecond(i, c, constants.size, shape.up), farther = minus(near, nearer);
+                    if (layers == 4u) {
+                        blocked += dot(blockedBy(nearer, shape) + blockedBy(farther, shape), perPixel);
+                    } else {
+                        Sums part = sumThird(2u * i, c, constants.size, shape.up);
+                        blocked += dot(blockedBy(part, shape) + blockedBy(minus(nearer, part), shape), perPixel);
+                        part = sumThird(2u * i + 1u, c, constants.size, shape.up);
+                        blocked += dot(blockedBy(part, shape) + blockedBy(minus(farther, part), shape), perPixel);
+                    }
+                    near = far;
+                }
+            }
+        }
     }
-    if (layers >= 4u) {
-        middle = near;
-        near = sumSecond(0u, x, y, pitch);
-        middle -= near;
-        far = sumSecond(1u, x, y, pitch);
-        furthest -= far;
-    }
-    if (layers >= 8u) {
-        mat4 half0 = sumThird(0u, x, y, pitch), half1 = sumThird(1u, x, y, pitch), half2 = sumThird(2u, x, y, pitch),
-             half3 = sumThird(3u, x, y, pitch);
-        blocked = blockedBy(half0, shape) + blockedBy(half1, shape) + blockedBy(half2, shape) + blockedBy(half3, shape);
-        near -= half0;
-        middle -= half1;
-        far -= half2;
-        furthest -= half3;
-    }
-    blocked += blockedBy(furthest, shape);
-    if (layers >= 2u) blocked += blockedBy(near, shape);
-    if (layers >= 4u) blocked += blockedBy(middle, shape) + blockedBy(far, shape);
-    imageStore(visibility, p, vec4(clamp(1.0 - constants.gain * meanOfCells(blocked, count, x, y), 0.0, 1.0)));
+    imageStore(visibility, p, vec4(clamp(1.0 - constants.gain * blocked / max(cells, 1.0), 0.0, 1.0)));
 }

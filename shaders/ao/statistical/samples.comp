@@ -39,7 +39,7 @@ void main() {
         vec2 at = pixel + (2.0 * fract(0.5 + (float(i) + shift) * kNext) - 1.0) * reach;
         ivec2 q = clamp(ivec2(at), ivec2(0), ivec2(view.size) - 1);
         float zq = imageLoad(depth, q).x;
-        float part = psi(vec4(dot(eyePosition(view, vec2(q) + 0.5, zq) - here, n) / height), constants.slope).x;
+        float part = psi(dot(eyePosition(view, vec2(q) + 0.5, zq) - here, n) / height, constants.slope);
         float point = part > (float(i) + 0.5) / float(constants.samples) ? 1.0 : 0.0;
         bool counts = !isSky(view, zq) && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
         blocked += counts ? (constants.lines != 0u ? part : point) : 0.0;

@@ -1,90 +1,95 @@
 // Sums over a pixel's window, cut into one cell or four quadrants, from a summed-area table.
 //
-// Window edges are at any position: interpolating the exclusive table between its entries is the exact integral of an image of constant
-// texels. Differences of entries against the window's first row and column are exact as integers modulo 2^32; they are converted to float
-// only for interpolation.
+// Window edges are at any position between table lines: what lies between the lines before and behind an edge counts by the part inside, as
+// is exact for an image of constant texels. A rectangle's sum, of four entries, is exact as an integer modulo 2^32.
 #ifndef OBSCURA_STATISTICAL_WINDOW_GLSL
 #define OBSCURA_STATISTICAL_WINDOW_GLSL
+#include "ao/statistical/fixed_point.h"
+#include "shared/octahedral.glsl"
+#include "shared/view.h"
 
 layout(constant_id = 0) const uint split = 2;  // cells along each side of a window: 1 or 2
 
-// Table lines before and behind each edge, and the edge's fraction between the two.
-struct Axis {
-    uint a0, b0, a1, b1, a2, b2;
-    float part0, part1, part2;
-    vec2 width;  // of the cells, texels
+// A table's line or column before a window's edge, and the edge's fraction between that and the next one.
+struct Edge {
+    uint line;
+    float part;
 };
-
-Axis axisOf(float centre, float reach, uint size) {
-    vec3 edges = clamp(centre + reach * vec3(-1.0, split == 2u ? 0.0 : 1.0, 1.0), 0.0, float(size));
-    ivec3 whole = min(ivec3(edges), int(size) - 1);  // signed conversion is faster on CPUs
-    vec3 part = edges - vec3(whole);
-    uvec3 lines = uvec3(whole);
-    return Axis(lines.x, lines.x + 1u, lines.y, lines.y + 1u, lines.z, lines.z + 1u, part.x, part.y, part.z, edges.yz - edges.xy);
+Edge edgeAt(float at, uint size) {
+    int whole = min(int(at), int(size) - 1);  // signed conversion is faster on CPUs
+    return Edge(uint(whole), at - float(whole));
 }
 
-// Sums above one table line, of the left and the right cells.
-struct Halves { vec4 left, right; };
+// Edges of a column of a window, table texels. With quadrants it is cut at y1 into an upper and a lower cell; else it ends there.
+struct Column { float x0, x1, y0, y1, y2; };
 
-Halves mix(Halves a, Halves b, float t) { return Halves(mix(a.left, b.left, t), mix(a.right, b.right, t)); }
+// Sums over a column's two cells: heights above the tangent plane's parallel through the eye, metres; number of pixels.
+struct Sums { vec2 height, count; };
+Sums minus(Sums a, Sums b) { return Sums(a.height - b.height, a.count - b.count); }
 
-// mat4 NAME(layer, x, y, pitch): sums of the cells of layer `layer`, one per column, row by row, from a buffer `table` with `layers` layers
-// per entry and `pitch` entries per row. Unrolled by hand, because compilers that do not unroll loops would keep the arrays in memory.
-#define WINDOW_SUMS(NAME, table, layers)                                                                                 \
-Halves NAME##Line(uint row, uint layer, Axis x, uvec4 top[6]) {                                                          \
-    uvec4 left = table[(row + x.a0) * layers + layer];                                                                   \
-    vec4 edge0 = x.part0 * vec4(ivec4(table[(row + x.b0) * layers + layer] - left - top[1]));                            \
-    vec4 edge1 = mix(vec4(ivec4(table[(row + x.a1) * layers + layer] - left - top[2])),                                  \
-                     vec4(ivec4(table[(row + x.b1) * layers + layer] - left - top[3])), x.part1);                        \
-    if (split == 1u) return Halves(edge1 - edge0, vec4(0.0));                                                            \
-    vec4 edge2 = mix(vec4(ivec4(table[(row + x.a2) * layers + layer] - left - top[4])),                                  \
-                     vec4(ivec4(table[(row + x.b2) * layers + layer] - left - top[5])), x.part2);                        \
-    return Halves(edge1 - edge0, edge2 - edge1);                                                                         \
-}                                                                                                                        \
-mat4 NAME(uint layer, Axis x, Axis y, uint pitch) {                                                                      \
-    uint row = y.a0 * pitch;                                                                                             \
-    uvec4 top[6];                                                                                                        \
-    top[0] = table[(row + x.a0) * layers + layer];                                                                       \
-    top[1] = table[(row + x.b0) * layers + layer] - top[0];                                                              \
-    top[2] = table[(row + x.a1) * layers + layer] - top[0];                                                              \
-    top[3] = table[(row + x.b1) * layers + layer] - top[0];                                                              \
-    if (split == 2u) top[4] = table[(row + x.a2) * layers + layer] - top[0];                                             \
-    if (split == 2u) top[5] = table[(row + x.b2) * layers + layer] - top[0];                                             \
-    Halves edge0 = NAME##Line(y.b0 * pitch, layer, x, top);                                                              \
-    edge0 = Halves(y.part0 * edge0.left, y.part0 * edge0.right);                                                         \
-    Halves edge1 = mix(NAME##Line(y.a1 * pitch, layer, x, top), NAME##Line(y.b1 * pitch, layer, x, top), y.part1);       \
-    if (split == 1u) return mat4(edge1.left - edge0.left, vec4(0.0), vec4(0.0), vec4(0.0));                              \
-    Halves edge2 = mix(NAME##Line(y.a2 * pitch, layer, x, top), NAME##Line(y.b2 * pitch, layer, x, top), y.part2);       \
-    return mat4(edge1.left - edge0.left, edge1.right - edge0.right, edge2.left - edge1.left, edge2.right - edge1.right); \
+// The integer sum of a rectangle: (height, count).
+vec2 seen(uvec4 sum, vec3 up) { return vec2(dot(up, vec3(ivec3(sum.xyz))), float(int(sum.w))); }
+
+// Sums NAME(layer, c, size, up): of layer `layer`, from a buffer `table` of that size with `layers` layers per entry.
+// up: the normal, metres per unit. A loop over lines, because compilers fetch all lines of unrolled code at once, into as many registers.
+#define WINDOW_SUMS(NAME, table, layers)                                                                           \
+Sums NAME(uint layer, Column c, uvec2 size, vec3 up) {                                                             \
+    Edge x0 = edgeAt(c.x0, size.x), x1 = edgeAt(c.x1, size.x);                                                     \
+    Sums cells = Sums(vec2(0.0), vec2(0.0));                                                                       \
+    uvec4 s0 = uvec4(0u), s1 = s0, s2 = s0;  /* up to the line before: about x0, between the edges, about x1 */    \
+    [[dont_unroll]] for (uint i = 0u; i < 2u + 2u * split; ++i) {                                                  \
+        Edge y = edgeAt(i < 2u ? c.y0 : i < 4u ? c.y1 : c.y2, size.y);                                             \
+        uint row = (y.line + (i & 1u)) * (size.x + 1u);                                                            \
+        uint at0 = (row + x0.line) * layers + layer, at1 = (row + x1.line) * layers + layer;                       \
+        uvec4 behind = table[at0 + layers], before = table[at1], next = behind - table[at0];                       \
+        vec2 sum = (1.0 - x0.part) * seen(next - s0, up);                                                          \
+        s0 = next;                                                                                                 \
+        next = before - behind;                                                                                    \
+        sum += seen(next - s1, up);                                                                                \
+        s1 = next;                                                                                                 \
+        next = table[at1 + layers] - before;                                                                       \
+        sum += x1.part * seen(next - s2, up);                                                                      \
+        s2 = next;                                                                                                 \
+        vec2 weight = i == 1u ? vec2(1.0 - y.part, 0.0) : i == 3u ? vec2(y.part, 1.0 - y.part)                     \
+                    : vec2(i == 2u ? 1.0 : 0.0, i == 4u ? 1.0 : i == 5u ? y.part : 0.0);                           \
+        cells.height += sum.x * weight;                                                                            \
+        cells.count += sum.y * weight;                                                                             \
+    }                                                                                                              \
+    return cells;                                                                                                  \
 }
 
 // The box of a pixel.
 struct Shape {
-    vec3 here, n;     // of the pixel
-    float metres;     // per unit
+    vec3 up;          // normal, metres per unit
+    float base;       // height of the pixel above the tangent plane's parallel through the eye, metres
     float height;     // of the box, metres
     float slope;
 };
+Shape shapeOf(View view, Box box, Extent extent, vec2 pixel, float z, uint normal, float slope) {
+    vec3 here = eyePosition(view, pixel, z), n = unpackNormal(normal);
+    if (dot(n, towardsEye(view, here)) < 0.0) n = -n;
+    return Shape(n / unitsPerMetre(view, box, extent), dot(here, n), boxHeight(view, box, z), slope);
+}
 
 // Blocked fraction of a box by mean height: 1 at 1, 0 from 1 + 1 / slope on [Hendrickx, sec. 3.3].
-vec4 psi(vec4 x, float slope) { return max(vec4(0.0), min(x, 1.0 + slope - slope * x)); }
-
-vec4 counts(mat4 sums) { return vec4(sums[0].w, sums[1].w, sums[2].w, sums[3].w); }
+float psi(float x, float slope) { return max(0.0, min(x, 1.0 + slope - slope * x)); }
 
 // Blocked count of one layer, one component per cell: psi of its mean height above the tangent plane, times its count [Hendrickx, eq. 6,
 // 7].
-vec4 blockedBy(mat4 sums, Shape s) {
-    vec4 count = counts(sums);
-    vec4 height = vec4(s.n * s.metres, 0.0) * sums / max(count, 0.25) - dot(s.here, s.n);
-    // Counts below 0.25 are rounding of an empty cell.
-    return mix(vec4(0.0), psi(height / s.height, s.slope) * count, greaterThanEqual(count, vec4(0.25)));
+vec2 blockedBy(Sums sums, Shape s) {
+    vec2 height = (sums.height / max(sums.count, 0.25) - s.base) / s.height;
+    vec2 blocked = vec2(psi(height.x, s.slope), psi(height.y, s.slope)) * sums.count;
+    return mix(vec2(0.0), blocked, greaterThanEqual(sums.count, vec2(0.25)));  // counts below are rounding of an empty cell
 }
 
-// Mean over the non-empty cells of blocked / count; cells can be empty at the frame's edge.
-float meanOfCells(vec4 blocked, vec4 count, Axis x, Axis y) {
-    vec4 nonEmpty = vec4(greaterThan(vec4(x.width.xyxy * y.width.xxyy), vec4(0.0)));
-    if (split == 1u) nonEmpty = vec4(1.0, 0.0, 0.0, 0.0);
-    return dot(blocked / max(count, 0.25), nonEmpty) / max(dot(nonEmpty, vec4(1.0)), 1.0);
+// The column `index` of a pixel's window.
+Column columnAt(vec2 centre, float reach, uvec2 size, uint index) {
+    vec2 last = vec2(size), low = clamp(centre - reach, vec2(0.0), last), high = clamp(centre + reach, vec2(0.0), last);
+    vec2 middle = split == 2u ? clamp(centre, vec2(0.0), last) : high;
+    return Column(index == 0u ? low.x : middle.x, index == 0u ? middle.x : high.x, low.y, middle.y, high.y);
 }
+
+// 1 for each of a column's two cells, 0 if it is empty: at the frame's edge, or below if there is no lower cell.
+vec2 cellsOf(Column c) { return vec2(c.x1 > c.x0 && c.y1 > c.y0, c.x1 > c.x0 && c.y2 > c.y1); }
 
 #endif
