@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../temporary_folder.h"
 #include "app/complaint.h"
 #include "compare.h"
 #include "front.h"
@@ -170,9 +171,28 @@ TEST(Bench, tableMarksTheBestAndReplacesTheMarkedSection) {
     EXPECT_EQ(citation("Mittring: Finding Next Gen, CryEngine 2, SIGGRAPH 2007 courses; hemisphere form: de Vries, LearnOpenGL"),
         "Mittring 2007; hemisphere form: de Vries, LearnOpenGL");
     EXPECT_EQ(citation(""), "");
-    const std::string page = std::string("before\n") + kTableBegin + "\nold\n" + kTableEnd + "\nafter\n";
-    EXPECT_EQ(withTable(page, "new\n", "x.md"), std::string("before\n") + kTableBegin + "\nnew\n" + kTableEnd + "\nafter\n");
-    EXPECT_THROW(withTable("before\n", "new\n", "x.md"), app::Complaint);
+    const auto page = [](const Markers& markers, const std::string& table) {
+        return std::string("before\n") + markers.begin + "\n" + table + markers.end + "\nafter\n";
+    };
+    Results measured = results({row("hbao", "", 2.0, 0.1), row("gtao", "", 1.0, 0.2)});
+    EXPECT_EQ(withTables(page(kTimes, "old\n"), &measured, "x.md"), page(kTimes, briefTable(measured)));
+    EXPECT_EQ(withTables(page(kTimes, "old\n"), nullptr, "x.md"), page(kTimes, "old\n"));
+    EXPECT_THROW(withTables("before\n", &measured, "x.md"), app::Complaint);
+    EXPECT_THROW(withTables(page(kCosts, ""), &measured, "x.md"), app::Complaint) << "no costs were counted";
+    measured.gpu = "navi21", measured.gpuCompiler = "Mesa";
+    measured.rows[0].gpu = GpuCost{2000, 0.25, 0.125, 40, 24, true, ""};
+    measured.rows[1].gpu = GpuCost{3000, 0.5, 0.125, 48, 20, false, ""};
+    const std::string costs = withTables(page(kCosts, ""), &measured, "x.md");
+    EXPECT_EQ(costs, page(kCosts, costTable(measured)));
+    const size_t cheap = costs.find("| ~2000 | 0.25 | 0.12 | 40 | 24 |"), dear = costs.find("| 3000 | 0.50 | 0.12 | 48 | 20 |");
+    EXPECT_NE(dear, std::string::npos) << costs;
+    EXPECT_LT(cheap, dear) << costs;
+    const Results read = [&] {
+        const test::TemporaryFolder folder;
+        std::ofstream(folder.path() / "bench.json") << jsonText(measured);
+        return readResults(folder.path() / "bench.json");
+    }();
+    EXPECT_EQ(costTable(read), costTable(measured));
 }
 
 TEST(Bench, listsOfSettingsExpandToEveryCombination) {

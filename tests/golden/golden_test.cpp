@@ -9,6 +9,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #define STB_IMAGE_IMPLEMENTATION
@@ -84,13 +85,16 @@ void check(const std::string& method, const std::string& view) {
     if (!testing::Test::HasFailure() && !renew) fs::remove(made);
 }
 
+std::vector<std::string> ids() {
+    std::vector<std::string> result;
+    for (const obscura::ao::MethodInfo* info : obscura::ao::methods()) result.emplace_back(info->id);
+    return result;
+}
+
 TEST(Golden, finalImageMatches) { check("hbao", "final"); }
 
-TEST(Golden, visibilityOfEveryMethodMatches) {
-    for (const obscura::ao::MethodInfo* info : obscura::ao::methods()) {
-        SCOPED_TRACE(info->id);
-        check(info->id, "visibility");
-    }
-}
+class EveryMethod : public testing::TestWithParam<std::string> {};
+TEST_P(EveryMethod, visibilityMatches) { check(GetParam(), "visibility"); }
+INSTANTIATE_TEST_SUITE_P(Golden, EveryMethod, testing::ValuesIn(ids()), [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -12,6 +12,14 @@
 namespace obscura::bench {
 namespace {
 
+std::vector<gpu_cost::Wanted::Candidate> candidatesOf(const Options& options) {
+    std::vector<gpu_cost::Wanted::Candidate> candidates;
+    for (const measure::Candidate& candidate : options.what.candidates)
+        if (candidate.info().needs)
+            candidates.push_back({candidate.values, candidate.preset, fmt::format("{}", fmt::join(candidate.settings, " "))});
+    return candidates;
+}
+
 gpu_cost::Wanted wantedOf(const Options& options) {
     gpu_cost::Wanted wanted;
     std::vector<std::string> known;
@@ -27,9 +35,7 @@ gpu_cost::Wanted wantedOf(const Options& options) {
     wanted.falloffText = options.what.falloffs.front().text;
     wanted.width = options.sizes.front().x;
     wanted.height = options.sizes.front().y;
-    for (const measure::Candidate& candidate : options.what.candidates)
-        if (candidate.info().needs)
-            wanted.candidates.push_back({candidate.values, candidate.preset, fmt::format("{}", fmt::join(candidate.settings, " "))});
+    wanted.candidates = candidatesOf(options);
     return wanted;
 }
 
@@ -40,6 +46,37 @@ void print(const char* what, const std::vector<std::string>& lines) {
 }
 
 }  // namespace
+
+void addGpuCosts(const Options& options, gpu::Device& device, Results& results) {
+    constexpr const char* kChip = "navi21";
+    gpu_cost::Wanted wanted;
+    wanted.chips = {gpu_cost::findChip(kChip)};
+    std::string error;
+    if (!gpu_cost::compilerOf(*wanted.chips[0], error)) {
+        fmt::print("GPU costs are left out: {}\n", error);
+        return;
+    }
+    wanted.candidates = candidatesOf(options);
+    app::Progress bar("gpu cost", options.what.falloffs.size() * wanted.candidates.size());
+    size_t before = 0;
+    for (const measure::FalloffChoice& falloff : options.what.falloffs) {
+        wanted.falloff = falloff.falloff;
+        wanted.falloffText = falloff.text;
+        const gpu_cost::Table table = gpu_cost::measure(device, wanted, [&](size_t done, size_t) { bar.at(before + done); })[0];
+        before += wanted.candidates.size();
+        results.gpu = fmt::format("{} ({})", table.chip, wanted.chips[0]->product);
+        results.gpuCompiler = table.driver;
+        for (const gpu_cost::Row& counted : table.rows) {
+            bool guessed = false;
+            for (const gpu_cost::PassCost& pass : counted.cost.passes) guessed = guessed || pass.loops;
+            for (Row& row : results.rows)
+                if (row.falloff == falloff.text && row.method == counted.method && row.preset == counted.preset &&
+                    row.settings == counted.settings)
+                    row.gpu = GpuCost{counted.cost.cycles, counted.cost.arithmeticMs, counted.cost.memoryMs, counted.cost.registers,
+                        counted.cost.waves, guessed, counted.geometry};
+        }
+    }
+}
 
 int countGpuCost(const Options& options) {
     const gpu_cost::Wanted wanted = wantedOf(options);

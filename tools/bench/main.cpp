@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 std::string textOf(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in)
-        throw app::Complaint(
-            fmt::format("--table {}: no such file; name a Markdown file with the lines {} and {}", file.string(), kTableBegin, kTableEnd));
+        throw app::Complaint(fmt::format(
+            "--table {}: no such file; name a Markdown file with the lines {} and {}", file.string(), kTimes.begin, kTimes.end));
     std::stringstream text;
     text << in.rdbuf();
     return text.str();
@@ -33,7 +33,7 @@ int run(int argc, char** argv) {
     if (!options) return 0;
     if (!options->gpuCost.empty()) return countGpuCost(*options);
     // Files are checked before anything is measured.
-    if (!options->table.empty()) withTable(textOf(options->table), "", options->table), app::expectWritable(options->table);
+    if (!options->table.empty()) withTables(textOf(options->table), nullptr, options->table), app::expectWritable(options->table);
     std::optional<Results> before;
     if (!options->compare.empty()) before = readResults(options->compare);
 
@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
         app::expectFolder(options->out);
         measure::Machine machine({options->what.device, options->what.validation, options->what.verbose});
         results = measure(*options, machine);
+        if (options->countGpuCost) addGpuCosts(*options, machine.device(), results);
         if (machine.device().validationMessages()) code = app::kInvalidUse;
     }
     if (!options->out.empty()) {
@@ -58,7 +59,7 @@ int run(int argc, char** argv) {
         std::fputs(markdown(results).c_str(), stdout);
         fmt::print("{}\n", (options->out / "bench.html").string());
     }
-    if (!options->table.empty()) app::writeFile(options->table, withTable(textOf(options->table), briefTable(results), options->table));
+    if (!options->table.empty()) app::writeFile(options->table, withTables(textOf(options->table), &results, options->table));
     if (before) {
         Tolerances tolerances;
         tolerances.time = options->tolerance;

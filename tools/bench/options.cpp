@@ -113,12 +113,15 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "Compare these costs with a baseline; fail if a pass takes over 3 % more cycles, fits fewer waves, or spills more");
     auto* renew = cli.add_option("--renew-gpu-cost", options.renewGpuCost, "Write that baseline");
     check->excludes(renew);
+    cli.add_flag("!--no-gpu-cost", options.countGpuCost, "Measure without counting the candidates' cycles on navi21 besides");
 
     cli.option_defaults()->group("Output");
     cli.add_option("--out", out, "Folder of the results")->capture_default_str();
     cli.add_flag("--again", options.again, "Measure again instead of resuming from the folder");
     cli.add_option("--from", options.from, "Measure nothing; read the bench.json of an earlier run");
-    cli.add_option("--table", options.table, "Markdown file; replaces its table between <!-- bench: begin --> and <!-- bench: end -->");
+    cli.add_option("--table", options.table,
+        "Markdown file; replaces its tables: of times between <!-- bench: begin --> and <!-- bench: end -->, of GPU costs between "
+        "<!-- gpu cost: begin --> and <!-- gpu cost: end -->");
     cli.add_option(
         "--compare", options.compare, "bench.json of an earlier run: print ratios with confidence intervals, fail on regressions");
     cli.add_option(

@@ -45,6 +45,9 @@ Json toJson(const Row& r) {
         json["errors"].push_back({{"reference", e.reference}, {"eA", digits(e.eA)}, {"bias", digits(e.bias)}, {"rmse", digits(e.rmse)},
             {"p99", digits(e.p99)}, {"ssim", digits(e.ssim)}});
     if (r.flicker) json["flicker"] = {{"ofError", digits(r.flicker->ofError)}, {"ofReference", digits(r.flicker->ofReference)}};
+    if (r.gpu)
+        json["gpu"] = {{"cycles", digits(r.gpu->cycles)}, {"guessed", r.gpu->guessed}, {"ms_arithmetic", digits(r.gpu->arithmeticMs)},
+            {"ms_memory", digits(r.gpu->memoryMs)}, {"vgprs", r.gpu->registers}, {"waves", r.gpu->waves}, {"geometry", r.gpu->geometry}};
     return json;
 }
 
@@ -62,13 +65,19 @@ Row rowOf(const Json& json) {
     for (const Json& e : json.at("errors"))
         r.errors.push_back({e.at("reference"), e.at("eA"), e.at("bias"), e.at("rmse"), e.at("p99"), e.at("ssim")});
     if (json.contains("flicker")) r.flicker = Flicker{json["flicker"].at("ofError"), json["flicker"].at("ofReference")};
+    if (json.contains("gpu")) {
+        const Json& gpu = json["gpu"];
+        r.gpu = GpuCost{gpu.at("cycles"), gpu.at("ms_arithmetic"), gpu.at("ms_memory"), gpu.at("vgprs"), gpu.at("waves"), gpu.at("guessed"),
+            gpu.at("geometry")};
+    }
     return r;
 }
 
 std::string jsonText(const Results& results) {
     Json json{{"device", results.device}, {"command", results.command}, {"guard", digits(results.guard)}, {"frames", results.frames},
         {"warmUp", results.warmUp}, {"rounds", results.rounds}, {"rays", results.rays}, {"flickerFrames", results.flickerFrames},
-        {"flickerSize", {results.flickerWidth, results.flickerHeight}}, {"rows", Json::array()}};
+        {"flickerSize", {results.flickerWidth, results.flickerHeight}}, {"gpu", results.gpu}, {"gpuCompiler", results.gpuCompiler},
+        {"rows", Json::array()}};
     for (const Row& row : results.rows) json["rows"].push_back(toJson(row));
     return json.dump(1) + "\n";
 }
@@ -84,6 +93,7 @@ Results readResults(const std::filesystem::path& file) {
         results.warmUp = json.at("warmUp"), results.rounds = json.at("rounds"), results.rays = json.at("rays");
         results.flickerFrames = json.at("flickerFrames"), results.flickerWidth = json.at("flickerSize").at(0),
         results.flickerHeight = json.at("flickerSize").at(1);
+        results.gpu = json.value("gpu", ""), results.gpuCompiler = json.value("gpuCompiler", "");
         for (const Json& row : json.at("rows")) results.rows.push_back(rowOf(row));
         return results;
     } catch (const Json::exception& error) {
@@ -95,11 +105,12 @@ std::string csv(const Results& results) {
     std::string text =
         "scene,camera,width,height,triangles,falloff,reach_m,method,preset,settings,baseline,median_ms,p95_ms,frame_ms,bytes,reference,eA,"
         "bias,rmse,p99,ssim,"
-        "flicker_of_error,flicker_of_reference\n";
+        "flicker_of_error,flicker_of_reference,gpu_cycles\n";
     for (const Row& r : results.rows) {
         const std::string head = fmt::format("{},{},{},{},{},{},{:g},{},{},{},{},{:.4f},{:.4f},{:.4f},{}", r.scene, r.camera, r.width,
             r.height, r.triangles, r.falloff, r.reach, r.method, r.preset, r.settings, int(r.baseline), r.median, r.p95, r.frame, r.bytes);
-        const std::string tail = r.flicker ? fmt::format("{:.6f},{:.6f}", r.flicker->ofError, r.flicker->ofReference) : ",";
+        const std::string tail = (r.flicker ? fmt::format("{:.6f},{:.6f},", r.flicker->ofError, r.flicker->ofReference) : ",,") +
+                                 (r.gpu ? fmt::format("{:.1f}", r.gpu->cycles) : "");
         for (const ErrorRow& e : r.errors)
             text +=
                 fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n", head, e.reference, e.eA, e.bias, e.rmse, e.p99, e.ssim, tail);

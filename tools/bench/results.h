@@ -28,6 +28,15 @@ struct Flicker {
     double ofReference = 0.0;  // F_R, the flicker of error of a constant picture
 };
 
+// What the compiler of a GPU counts; see gpu_cost/cost.h. For the row's falloff, at 1920x1080.
+struct GpuCost {
+    double cycles = 0.0;                        // of a SIMD, for 64 pixels
+    double arithmeticMs = 0.0, memoryMs = 0.0;  // floors
+    double registers = 0.0, waves = 0.0;        // of the worst pass
+    bool guessed = false;                       // some loops have the compiler's guess as weight
+    std::string geometry;                       // what must be rendered besides
+};
+
 // The key of a row. Rows of the same scene, camera and size were measured in turns, round by round.
 struct Row {
     std::string scene, camera, falloff, method, preset, settings;
@@ -53,6 +62,7 @@ struct Row {
     uint64_t bytes = 0;  // device memory beyond that of the frame without obscurance
     std::vector<ErrorRow> errors;
     std::optional<Flicker> flicker;
+    std::optional<GpuCost> gpu;
     const ErrorRow* against(const std::string& reference) const;
 };
 
@@ -60,6 +70,7 @@ struct Results {
     std::string device, command;  // command: the command line of the run
     double guard = 0.0;
     uint32_t frames = 0, warmUp = 0, rounds = 0, rays = 0;
+    std::string gpu, gpuCompiler;  // of GpuCost: "navi21 (Radeon RX 6900 XT)", "Mesa 22.3.6"; empty: not counted
     uint32_t flickerFrames = 0, flickerWidth = 0, flickerHeight = 0;
     std::vector<Row> rows;
 };

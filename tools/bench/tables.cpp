@@ -29,6 +29,7 @@ struct Line {
     double logTime = 0.0, p95 = 0.0, bytes = 0.0, world = 0.0, screen = 0.0, flicker = 0.0;
     size_t rows = 0, worlds = 0, screens = 0, flickers = 0;
     bool timed = true;
+    std::optional<GpuCost> gpu;
     std::vector<std::string> scenes;  // cells, in the order of the columns
     double milliseconds() const { return timed ? std::exp(logTime / double(rows)) : 0.0; }
 };
@@ -68,6 +69,7 @@ std::vector<Table> tablesOf(const Results& results) {
             if (const ErrorRow* e = row.against("world"))
                 line->world += e->eA, ++line->worlds, line->scenes[column] = fmt::format("{:.4f}", e->eA);
             if (const ErrorRow* e = row.against("screen")) line->screen += e->eA, ++line->screens;
+            if (row.gpu) line->gpu = row.gpu;
             if (row.flicker) line->flicker += row.flicker->ofError, ++line->flickers;
         }
     for (Table& table : tables) {
@@ -101,6 +103,16 @@ std::string inputsOf(const ao::MethodInfo& info) {
     return text;
 }
 
+// "paper | inputs" of a line; no paper beside variants of a method.
+std::string originOf(const Line& line) {
+    const ao::MethodInfo* info = ao::findMethod(line.method.c_str());
+    return fmt::format("{} | {}",
+        !info || !line.plain             ? ""
+        : info->paper[0] || !info->needs ? citation(info->paper)
+                                         : "our own",
+        info ? inputsOf(*info) : "");
+}
+
 std::string tableText(const Table& table, bool brief) {
     std::string text = brief ? "| method | paper | inputs | ms | p95 | MB |" : "| method | ms | p95 | MB |",
                 rule = brief ? "|---|---|---|--:|--:|--:|" : "|---|--:|--:|--:|";
@@ -110,13 +122,7 @@ std::string tableText(const Table& table, bool brief) {
         if (brief && !line.plain && !line.best) continue;
         const std::string name = line.best ? fmt::format("**{}**", line.label) : line.label;
         text += fmt::format("| {}{} |", name, line.baseline ? " (baseline)" : "");
-        const ao::MethodInfo* info = brief ? ao::findMethod(line.method.c_str()) : nullptr;
-        if (brief)
-            text += fmt::format(" {} | {} |",
-                !info || !line.plain             ? ""
-                : info->paper[0] || !info->needs ? citation(info->paper)
-                                                 : "our own",
-                info ? inputsOf(*info) : "");
+        if (brief) text += fmt::format(" {} |", originOf(line));
         text += fmt::format(" {:.2f} | {:.2f} | {:.1f} |", line.milliseconds(), line.p95, line.bytes * 1e-6);
         for (const std::string& cell : line.scenes) text += fmt::format(" {} |", cell);
         text += fmt::format(" {} | {} |\n", mean(line.screen, line.screens), mean(line.flicker, line.flickers));
@@ -204,12 +210,61 @@ std::string briefTable(const Results& results) {
         tableText(tables.front(), true), legend(results), results.command);
 }
 
-std::string withTable(const std::string& text, const std::string& table, const std::filesystem::path& file) {
-    const size_t begin = text.find(kTableBegin), end = text.find(kTableEnd);
-    if (begin == std::string::npos || end == std::string::npos || end < begin)
-        throw app::Complaint(fmt::format(
-            "--table {}: has no markers; put the lines {} and {} where the table belongs", file.string(), kTableBegin, kTableEnd));
-    return text.substr(0, begin) + kTableBegin + "\n" + table + text.substr(end);
+std::string costTable(const Results& results) {
+    std::vector<Table> tables = tablesOf(results);
+    if (tables.empty() || results.gpu.empty())
+        throw app::Complaint("--table: the results have no GPU costs; measure again, without --no-gpu-cost");
+    Table& table = tables.front();
+    std::erase_if(table.lines, [](const Line& line) { return !line.gpu; });
+    std::stable_sort(table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) { return a.gpu->cycles < b.gpu->cycles; });
+    std::string text = fmt::format("{}, compiled by {}, {}, default presets and the best of all:\n\n", results.gpu, results.gpuCompiler,
+                           table.falloff) +
+                       "| method | paper | inputs | cycles | ms, arithmetic | ms, memory | VGPRs | waves |",
+                rule = "|---|---|---|--:|--:|--:|--:|--:|";
+    for (const std::string& place : table.places) text += fmt::format(" eA {} |", place), rule += "--:|";
+    text += " eA screen | F_e |\n" + rule + "--:|--:|\n";
+    double best = std::numeric_limits<double>::infinity();
+    for (const Line& line : table.lines) {
+        const double error = line.worlds ? line.world / double(line.worlds) : best;
+        const bool front = error < best;
+        if (front) best = error;
+        if (!line.plain && !front) continue;
+        text += fmt::format("| {}{} | {} | {}{:.0f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} |",
+            front ? fmt::format("**{}**", line.label) : line.label, line.baseline ? " (baseline)" : "", originOf(line),
+            line.gpu->guessed ? "~" : "", line.gpu->cycles, line.gpu->arithmeticMs, line.gpu->memoryMs, line.gpu->registers,
+            line.gpu->waves);
+        for (const std::string& cell : line.scenes) text += fmt::format(" {} |", cell);
+        text += fmt::format(" {} | {} |\n", mean(line.screen, line.screens), mean(line.flicker, line.flickers));
+    }
+    return text + "\n" +
+           wrapped(fmt::format(
+               "cycles: of a SIMD, for 64 pixels, all compute passes; ~: with the compiler's guess of how often some loops run. ms: the "
+               "least that a frame of 1920 x 1080 can take by arithmetic, and by memory if caches are perfect; a real GPU takes more. "
+               "Geometry of depth layers and voxels comes on top. VGPRs, waves a SIMD: of the worst pass. eA: mean absolute error of "
+               "visibility against rays through the scene's triangles, {} a pixel, at {} px; eA screen: against rays through the depth "
+               "buffer, mean over the scenes. F_e: flicker of error over {} frames of each scene's flythrough. Bold: no other is both "
+               "cheaper and more accurate. (layers): read where `depth_layers` says so. Missing normals are reconstructed; any method but "
+               "`hybrid` takes voxels with `offscreen`, and motion with `temporal`.",
+               results.rays, table.size, results.flickerFrames)) +
+           "\n";
+}
+
+std::string withTables(const std::string& text, const Results* results, const std::filesystem::path& file) {
+    std::string made = text;
+    bool found = false;
+    const auto replace = [&](const Markers& markers, std::string (*table)(const Results&)) {
+        const size_t begin = made.find(markers.begin), end = made.find(markers.end);
+        if (begin == std::string::npos || end == std::string::npos || end < begin) return;
+        found = true;
+        if (results) made = made.substr(0, begin) + markers.begin + "\n" + table(*results) + made.substr(end);
+    };
+    replace(kTimes, briefTable);
+    replace(kCosts, costTable);
+    if (!found)
+        throw app::Complaint(
+            fmt::format("--table {}: has no markers; put the lines {} and {} where a table of times belongs, {} and {} for GPU costs",
+                file.string(), kTimes.begin, kTimes.end, kCosts.begin, kCosts.end));
+    return made;
 }
 
 }  // namespace obscura::bench

@@ -7,8 +7,12 @@
 
 namespace obscura::bench {
 
-inline constexpr const char* kTableBegin = "<!-- bench: begin -->";
-inline constexpr const char* kTableEnd = "<!-- bench: end -->";
+// Markers of a file's tables: of briefTable() and of costTable().
+struct Markers {
+    const char *begin, *end;
+};
+inline constexpr Markers kTimes{"<!-- bench: begin -->", "<!-- bench: end -->"},
+    kCosts{"<!-- gpu cost: begin -->", "<!-- gpu cost: end -->"};
 
 // A table per size and falloff: one row per candidate, fastest first, one column of errors per scene.
 std::string markdown(const Results& results);
@@ -20,7 +24,10 @@ std::string citation(const std::string& paper);
 // The table of the first size and falloff: default presets and settings of the Pareto front of time and mean error, with a legend, and with
 // papers and inputs from the registry.
 std::string briefTable(const Results& results);
-// `text` with the lines between the markers replaced. Throws app::Complaint if it has no markers.
-std::string withTable(const std::string& text, const std::string& table, const std::filesystem::path& file);
+// The same by cycles on a GPU, cheapest first, with floors, registers and waves instead of times and memory.
+std::string costTable(const Results& results);
+// `text` with the tables between its markers replaced; results: null to check it only. Throws app::Complaint if it has no markers, or those
+// of costs and the results have none.
+std::string withTables(const std::string& text, const Results* results, const std::filesystem::path& file);
 
 }  // namespace obscura::bench

@@ -5,6 +5,8 @@
     falloff: '',
     reference: '',
     size: '',
+    cost: data.rows.some(r => r.gpu) ? 'cycles' : 'ms',
+    quality: 'error',
     names: true,
     hidden: new Set(),
     marked: '',
@@ -19,6 +21,15 @@
   const methods = unique(data.rows.map(r => r.method));
   const colour = id => `var(--c${(1 + methods.indexOf(id)) % 10})`;
   const errorOf = (row, kind) => row.errors.find(e => e.reference === kind);
+  // What the charts' axes can show.
+  const COSTS = {
+    cycles: {of: r => r.gpu?.cycles, text: `cycles for 64 pixels, ${data.gpu}`, name: 'GPU cycles'},
+    ms: {of: r => r.milliseconds.median, text: `milliseconds, ${data.device}`, name: 'milliseconds'}
+  };
+  const QUALITIES = {
+    error: {of: (r, kind) => errorOf(r, kind)?.eA, text: 'eA', name: 'error'},
+    flicker: {of: r => r.flicker?.ofError, text: 'F_e', name: 'flicker'}
+  };
   const ours = row => !row.baseline;
   const megabytes = bytes => (bytes * 1e-6).toFixed(1);
 
@@ -53,6 +64,9 @@
     const errors = row.errors.map(e => `eA ${fixed(e.eA, 4)} ${e.reference}`).join(', ');
     return [
       `${row.label}${row.baseline ? ' (baseline)' : ''}`,
+      row.gpu ? `${row.gpu.guessed ? '~' : ''}${row.gpu.cycles.toFixed(0)} cycles, ${row.gpu.waves} waves, at least ${
+                    milliseconds(Math.max(row.gpu.ms_arithmetic, row.gpu.ms_memory))} ms at 1920x1080 on ${data.gpu}` :
+                '',
       `${milliseconds(row.milliseconds.median)} ms, 95 % within ${milliseconds(row.milliseconds.p95)} ms`, errors,
       `${megabytes(row.bytes)} MB${row.flicker ? `, flicker of error ${fixed(row.flicker.ofError, 4)}` : ''}`
     ].filter(Boolean);
@@ -115,11 +129,13 @@
 
   // ---- fronts ----
   function frontChart(front) {
-    const shown = front.rows.map(i => data.rows[i]).filter(r => !state.hidden.has(r.method)), kind = front.reference;
-    if (!shown.length) return element('p', {class: 'empty'}, 'All methods are hidden.');
-    const time = r => r.milliseconds.median, error = r => Math.max(errorOf(r, kind).eA, 1e-5);
+    const cost = COSTS[state.cost], quality = QUALITIES[state.quality], kind = front.reference;
+    const time = cost.of, error = r => Math.max(quality.of(r, kind), 1e-5);
+    const all = front.rows.map(i => data.rows[i]).filter(r => time(r) > 0 && quality.of(r, kind) !== undefined);
+    const shown = all.filter(r => !state.hidden.has(r.method));
+    if (!shown.length) return element('p', {class: 'empty'}, all.length ? 'All methods are hidden.' : 'Not measured here.');
     const x = axisOf(shown.map(time), BOX.left, BOX.right), y = axisOf(shown.map(error), BOX.bottom, BOX.top);
-    const root = frame(x, y, 'milliseconds', 'eA'), steps = [];
+    const root = frame(x, y, cost.text, quality.text), steps = [];
     let best = Infinity;  // builds the front of the shown rows
     for (const row of [...shown].sort((a, b) => time(a) - time(b) || error(a) - error(b)))
       if (error(row) < best) {
@@ -143,7 +159,7 @@
       const caption = element(
           'figcaption', {}, element('strong', {}, front.scene),
           `${front.camera === 'own' ? '' : front.camera + ', '}${front.falloff}, ${front.reference}, ${sizeOf(front)}`);
-      const verdict = !front.both ?
+      const verdict = !front.both || state.cost !== 'ms' || state.quality !== 'error' ?
           [] :
           front.gaps.length ?
           [element('ul', {class: 'gaps'}, ...front.gaps.map(g => element('li', {}, g)))] :
@@ -210,6 +226,9 @@
     ['camera', 'camera', 'text'],
     ['size', 'size', 'text'],
     ['falloff', 'falloff', 'text'],
+    ['cycles', 'cycles', 0],
+    ['floor', 'floor, ms', 2],
+    ['waves', 'waves', 0],
     ['median', 'ms', 2],
     ['p95', 'p95', 2],
     ['frame', 'frame', 2],
@@ -227,6 +246,9 @@
                                camera: r.camera,
                                size: sizeOf(r),
                                falloff: r.falloff,
+                               cycles: r.gpu?.cycles,
+                               floor: r.gpu && Math.max(r.gpu.ms_arithmetic, r.gpu.ms_memory),
+                               waves: r.gpu?.waves,
                                median: r.milliseconds.median,
                                p95: r.milliseconds.p95,
                                frame: r.milliseconds.frame,
@@ -281,6 +303,14 @@
     size: unique(data.fronts.map(sizeOf)),
     axis: unique(data.fits.map(f => f.axis))
   };
+  for (const [key, list] of Object.entries({cost: COSTS, quality: QUALITIES})) {
+    const measured = Object.keys(list).filter(k => k !== 'cycles' || data.rows.some(r => r.gpu));
+    fill($(key), measured.map(k => [k, list[k].name]), state[key]);
+    $(key).addEventListener('change', event => {
+      state[key] = event.target.value;
+      drawFronts();
+    });
+  }
   for (const [key, list] of Object.entries(choices)) {
     state[key] = list[0] ?? '';
     fill($(key), list.map(v => [v, v]), state[key]);
