@@ -23,7 +23,8 @@ Place placeOf(const std::string& text, const char* option) {
 }
 
 Course::Course(measure::Machine& machine, const std::vector<Place>& places, const std::vector<measure::FalloffChoice>& falloffs,
-    const flythrough::Settings& settings) {
+    const flythrough::Settings& settings, CycleClock* clock)
+    : m_clock(clock) {
     for (const Place& place : places)
         for (const measure::FalloffChoice& falloff : falloffs) {
             flythrough::Settings with = settings;
@@ -31,29 +32,33 @@ Course::Course(measure::Machine& machine, const std::vector<Place>& places, cons
             const std::string script = fmt::format("{}@{:g}", app::expectScene(place.scene).flythrough->string(), place.at);
             m_flights.push_back(std::make_unique<flythrough::Flight>(machine, flythrough::findScript(script), with));
             m_names.push_back(place.text + " " + falloff.text);
+            m_falloffs.push_back(&falloff);
         }
 }
 
 Leg Course::fly(size_t leg, const measure::Candidate& candidate) {
     const flythrough::Summary summary = summarize(m_flights[leg]->measure(candidate, flythrough::ownFilter(candidate)));
-    return {summary.eA, summary.flickerOfError, summary.milliseconds};
+    if (!m_clock) return {summary.eA, summary.flickerOfError, summary.milliseconds, 0.0};
+    const gpu_cost::MethodCost& cost = m_clock->costOf(candidate, *m_falloffs[leg]);
+    return {summary.eA, summary.flickerOfError, cost.cycles, cost.bytes};
 }
 
 std::string Course::keyOf(const measure::Candidate& candidate) const {
     scene::Hash hash;
+    hash.add(m_clock ? "cycles" : "ms");
     for (const auto& flight : m_flights) hash.add(flight->keyOf(candidate, *ao::findResolvePreset("spatial")));
     return hash.hex();
 }
 
 Score score(Course& course, const measure::Candidate& candidate, const measure::Candidate& hand, const std::vector<Leg>& handLegs) {
     Score result;
+    constexpr double kBytes = 1.05;
     double logError = 0.0, logTime = 0.0, flicker = 0.0, handFlicker = 0.0;
     for (size_t leg = 0; leg < course.size(); ++leg) {
-        const Leg is = course.fly(leg, candidate),
-                  then = course.fly(leg, hand);  // the hand-set preset is timed again, because the machine's speed drifts
-        const Leg& was = handLegs[leg];
+        const Leg &was = handLegs[leg], is = course.fly(leg, candidate),
+                  then = course.countsCycles() ? was : course.fly(leg, hand);  // timed again, because the machine's speed drifts
         result.errors.push_back(is.eA / std::max(was.eA, 1e-6));
-        result.times.push_back(is.milliseconds / std::max(then.milliseconds, 1e-6));
+        result.times.push_back(std::max(is.time / std::max(then.time, 1e-6), then.bytes > 0.0 ? is.bytes / (then.bytes * kBytes) : 0.0));
         logError += std::log(std::max(result.errors.back(), 1e-6));
         logTime += std::log(std::max(result.times.back(), 1e-6));
         flicker += is.flicker, handFlicker += was.flicker;

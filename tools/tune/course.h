@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "clock.h"
 #include "flight.h"
 
 namespace obscura::tune {
@@ -15,14 +16,16 @@ struct Place {
 };
 Place placeOf(const std::string& text, const char* option);  // throws app::Complaint
 
-struct Leg {                                             // measurements of one flight
-    double eA = 0.0, flicker = 0.0, milliseconds = 0.0;  // means over its frames; sum of the passes' medians
+struct Leg {                         // measurements of one flight
+    double eA = 0.0, flicker = 0.0;  // means over its frames
+    double time = 0.0, bytes = 0.0;  // ms, sum of the passes' medians, bytes 0; or GPU cycles, bytes a pixel
 };
 
 class Course {
 public:
     Course(measure::Machine& machine, const std::vector<Place>& places, const std::vector<measure::FalloffChoice>& falloffs,
-        const flythrough::Settings& settings);
+        const flythrough::Settings& settings, CycleClock* clock = nullptr);  // clock: null for milliseconds
+    bool countsCycles() const { return m_clock; }                            // then the same candidate has the same time
     size_t size() const { return m_flights.size(); }
     const std::string& name(size_t leg) const { return m_names[leg]; }  // "atrium@4 quadratic:2"
     Leg fly(size_t leg, const measure::Candidate& candidate);
@@ -31,9 +34,12 @@ public:
 private:
     std::vector<std::unique_ptr<flythrough::Flight>> m_flights;
     std::vector<std::string> m_names;
+    std::vector<const measure::FalloffChoice*> m_falloffs;  // of each flight
+    CycleClock* m_clock;
 };
 
-// Ratios of a candidate to the hand-set preset, both measured in turns leg by leg. Below 1 is better.
+// Ratios of a candidate to the hand-set preset, below 1 is better. Milliseconds of both are measured in turns, leg by leg. With cycles as
+// the clock, bytes guard: what they grow by beyond 5 % counts as time.
 struct Score {
     double error = 1.0, flicker = 1.0, time = 1.0;
     std::vector<double> errors, times;  // of each leg

@@ -15,8 +15,11 @@ int run(int argc, char** argv) {
     if (!options) return 0;
     app::expectFolder(options->out);
     measure::Machine machine({options->device, options->validation, options->verbose});
-    Course training(machine, options->training, options->falloffs, options->flight),
-        heldOut(machine, options->heldOut, options->falloffs, options->flight);
+    std::optional<CycleClock> clock;
+    if (options->cycles) clock.emplace(machine);
+    CycleClock* const counted = clock ? &*clock : nullptr;
+    Course training(machine, options->training, options->falloffs, options->flight, counted),
+        heldOut(machine, options->heldOut, options->falloffs, options->flight, counted);
     std::vector<Tuned> results;
     for (const measure::Candidate& hand : options->hands) {
         results.push_back(tune(*options, hand, training, heldOut));

@@ -26,13 +26,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "Examples:\n"
         "  obscura-tune --method hbao --preset tuned --out out/tune\n"
         "  obscura-tune --method all --evaluations 120 --train toasters@2,atrium@4 --held-out atrium@25,sponza@4\n"
+        "  obscura-tune --clock cycles --method gtao --preset tuned\n"
         "  obscura-tune --method layered --time 2 --parameters slices,steps,sheet                   least error at twice the time");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     measure::CandidateOptions chosen;
     std::vector<std::string> training{"toasters@2", "toasters@7", "atrium@4", "atrium@16"},
         heldOut{"toasters@11", "atrium@25", "sponza@4", "dragon@4"};
     std::vector<std::string> falloffs{"quadratic:2", "exponential:1"};
-    std::string size = "160x90", out = "out/tune";
+    std::string size = "160x90", out = "out/tune", clock = "ms";
     uint32_t frames = 4;
     bool noCache = false;
     using measure::takeAll;
@@ -41,6 +42,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     addCandidateOptions(cli, chosen);
     takeAll(cli.add_option("--parameters", options.parameters,
         "Parameters to search, or METHOD.PARAMETER (default: all numeric parameters of the method's own)"));
+    cli.add_option("--clock", clock,
+           "ms: time on this device; cycles: GPU cycles on navi21, which Mesa's compiler counts without a GPU, with bytes as a guard")
+        ->check(CLI::IsMember({"ms", "cycles"}))
+        ->capture_default_str();
     cli.add_option("--time", options.limits.time, "Limit of time, relative to the preset")
         ->check(CLI::Range(0.01, 100.0))
         ->capture_default_str();
@@ -75,6 +80,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     options.command = measure::commandOf("obscura-tune", argc, argv);
     options.out = out;
+    options.cycles = clock == "cycles";
+    if (options.cycles) options.rounds = 1;  // the same again
     for (const measure::Candidate& hand : measure::candidates(chosen.methods, chosen.presets, chosen.allSets()))
         if (hand.info().needs) options.hands.push_back(hand);
     if (options.hands.empty()) throw app::Complaint("--method none: has no parameters to search");

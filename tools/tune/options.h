@@ -18,6 +18,7 @@ struct Options {
     uint32_t evaluations = 80, rounds = 5, finalists = 4, seed = 1;
     std::filesystem::path out;
     bool again = false;
+    bool cycles = false;  // the clock: GPU cycles instead of milliseconds
     std::string device, validation = "off", command;
     bool verbose = false;
 };

@@ -181,13 +181,13 @@ std::string presetText(const measure::Candidate& candidate) {
 
 std::string markdown(const Options& options, const std::vector<Tuned>& results) {
     std::string text = fmt::format(
-        "# Searched settings\n\n    {}\n\nRatios to the hand-set preset, measured in turns, geometric means; below 1 is better. A winner "
+        "# Searched settings\n\n    {}\n\nRatios to the hand-set preset, {}, geometric means; below 1 is better. A winner "
         "is *real* with at least 2 % less error on\n"
         "held-out places, nowhere 2 % more, at most {:g} times the time and {:g} times the flicker.\n\n"
         "| preset | trials | error, training | error, held out | time, held out | 95 % of it | flicker, held out | real | settings over "
         "the preset |\n"
         "|---|--:|--:|--:|--:|--:|--:|---|---|\n",
-        options.command, options.limits.time, options.limits.flicker);
+        options.command, options.cycles ? "time in GPU cycles" : "measured in turns", options.limits.time, options.limits.flicker);
     for (const Tuned& r : results)
         text += r.training.settings.empty()
                     ? fmt::format("| {} | {} | | | | | | no | nothing better found |\n", r.hand.label(), r.trials.size())
