@@ -11,7 +11,7 @@
     hidden: new Set(),
     marked: '',
     axis: '',
-    sort: 'median',
+    sort: data.rows.some(r => r.gpu) ? 'cycles' : 'median',
     descending: false,
     filter: '',
     row: -1
