@@ -1,6 +1,6 @@
 // Visibility from uniform layers, two at a time [Hendrickx, sec. 4, eq. 5], for comparison with adaptive ones.
-// In: depth, normals, extent, the root table and that of two layers. In and out: accumulated blocked counts of each column's two cells. Out,
-// in the last pass: visibility, R16F.
+// In: depth, normals, extent, the root table and that of two layers. In and out: accumulated blocked counts of each column's two cells.
+// Out, in the last pass: visibility, R16F.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
