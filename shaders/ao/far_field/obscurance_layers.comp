@@ -97,24 +97,18 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
         Found found = Found(vec2(0.0), 0.0, false), before = found;
         Arc arc = Arc(vec2(0.0), 1.0, vec2(0.0), vec2(1.0), 1.0, 0.0, false);
         bool isFar = false;
-        while (true) {  // as sectorOf(): search for the next point or object that counts, then add it, objects first
-            if (!found.valid) {
-                isFar = i >= c.taps;
-                if (!isFar) {
-                    while (true) {
-                        before = found;
-                        nearest(s, r, at, open.horizon, i++, first, skyDepth, found, arc);
-                        if (found.valid || arc.valid || i >= c.taps) break;
-                    }
-                    isFar = !found.valid && !arc.valid;
-                }
-                if (isFar && j < end) {
-                    while (true) {
-                        before = found;
-                        next(s, at, c, open.horizon, kept, opposite, low, low + step, j, found, arc);
-                        if (found.valid || arc.valid || j >= end) break;
-                    }
-                }
+        do {  // as sectorOf(): search for the next point or object that counts, then add it, objects first
+            bool isLeft = found.valid, hit = isLeft;  // the point whose object was added before it
+            while (!hit && i < c.taps) {
+                before = found;
+                nearest(s, r, at, open.horizon, i++, first, skyDepth, found, arc);
+                hit = found.valid || arc.valid;
+            }
+            isFar = isLeft ? isFar : !hit;
+            while (!hit && j < end) {
+                before = found;
+                next(s, at, c, open.horizon, kept, opposite, low, low + step, j, found, arc);
+                hit = found.valid || arc.valid;
             }
             bool object = arc.valid;
             vec2 point = object ? arc.high / arc.over : found.to / max(found.over, 1e-12), n = s.n * (isFar ? 1.0 : share);
@@ -125,8 +119,7 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
                 c.unit);
             found.valid = found.valid && object;
             arc.valid = false;
-            if (!found.valid && i >= c.taps && j >= end) break;
-        }
+        } while (found.valid || i < c.taps || j < end);
         sum += s.weight * vec2(open.horizon.blocked, 1.0);
         low += step;
         along = mat2(turn.next, vec2(-turn.next.y, turn.next.x)) * along;
