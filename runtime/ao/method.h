@@ -67,8 +67,8 @@ inline constexpr const char* kLayerModes[] = {"none", "thickness", "two, half si
 
 struct MethodEntry {
     const MethodInfo* info;
-    // Null, with a log line, if a pipeline cannot be made.
     // For frames whose falloff is of that kind; see perFalloff.
+    // Null, with a log line, if a pipeline cannot be made.
     std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff);
     // Needs of these values beyond the table's; may be null.
     uint32_t (*needs)(const Values& values) = nullptr;

@@ -18,17 +18,15 @@ constexpr float kFarthest = 1e18f;  // its square fits in a float
 }  // namespace
 
 Status OffScreenPass::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff, OffScreenPass& out) {
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp", {falloffConstant(falloff)}, out.m_trace[0]) != gpu::Status::ok)
-        return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp:VOLUME_NANOVDB", {falloffConstant(falloff)}, out.m_trace[1]) !=
-        gpu::Status::ok)
-        return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp:DEPTH_LAYERS", {falloffConstant(falloff)}, out.m_layered[0]) !=
-        gpu::Status::ok)
-        return Status::shaderError;
-    if (gpu::Program::compute(device, shaders, "ao/offscreen/trace.comp:VOLUME_NANOVDB,DEPTH_LAYERS", {falloffConstant(falloff)},
-            out.m_layered[1]) != gpu::Status::ok)
-        return Status::shaderError;
+    const struct {
+        const char* name;
+        gpu::Program* program;
+    } programs[] = {{"ao/offscreen/trace.comp", &out.m_trace[0]}, {"ao/offscreen/trace.comp:VOLUME_NANOVDB", &out.m_trace[1]},
+        {"ao/offscreen/trace.comp:DEPTH_LAYERS", &out.m_layered[0]},
+        {"ao/offscreen/trace.comp:VOLUME_NANOVDB,DEPTH_LAYERS", &out.m_layered[1]}};
+    for (const auto& [name, program] : programs)
+        if (gpu::Program::compute(device, shaders, name, {falloffConstant(falloff)}, *program) != gpu::Status::ok)
+            return Status::shaderError;
     if (LayerPass::create(device, shaders, out.m_layerPass) != Status::ok) return Status::shaderError;
     return Upsample::create(device, shaders, out.m_upsample);
 }

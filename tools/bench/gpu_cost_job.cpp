@@ -67,13 +67,11 @@ void addGpuCosts(const Options& options, gpu::Device& device, Results& results) 
         results.gpu = fmt::format("{} ({})", table.chip, wanted.chips[0]->product);
         results.gpuCompiler = table.driver;
         for (const gpu_cost::Row& counted : table.rows) {
-            bool guessed = false;
-            for (const gpu_cost::PassCost& pass : counted.cost.passes) guessed = guessed || pass.loops;
             for (Row& row : results.rows)
                 if (row.falloff == falloff.text && row.method == counted.method && row.preset == counted.preset &&
                     row.settings == counted.settings)
                     row.gpu = GpuCost{counted.cost.cycles, counted.cost.arithmeticMs, counted.cost.memoryMs, counted.cost.registers,
-                        counted.cost.waves, guessed, counted.geometry};
+                        counted.cost.waves, counted.cost.loops, counted.geometry};
         }
     }
 }

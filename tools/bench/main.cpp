@@ -46,7 +46,7 @@ int run(int argc, char** argv) {
         app::expectFolder(options->out);
         measure::Machine machine({options->what.device, options->what.validation, options->what.verbose});
         results = measure(*options, machine);
-        if (options->countGpuCost) addGpuCosts(*options, machine.device(), results);
+        if (options->withGpuCost) addGpuCosts(*options, machine.device(), results);
         if (machine.device().validationMessages()) code = app::kInvalidUse;
     }
     if (!options->out.empty()) {

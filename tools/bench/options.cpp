@@ -46,7 +46,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.footer(
         "All methods, falloffs, cameras and sizes of a scene run in turns, round by round, so that drift of the machine affects all "
         "equally. Compare\n"
-        "times of one run only. Writes to --out: bench.html (error against time, scaling), bench.json, bench.csv, passes.csv, bench.md. An "
+        "times of one run only. Writes to --out: bench.html (error against cost, scaling), bench.json, bench.csv, passes.csv, bench.md. An "
         "interrupted\n"
         "run resumes with the same command.\n\n"
         "Examples:\n"
@@ -113,7 +113,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "Compare these costs with a baseline; fail if a pass takes over 3 % more cycles, fits fewer waves, or spills more");
     auto* renew = cli.add_option("--renew-gpu-cost", options.renewGpuCost, "Write that baseline");
     check->excludes(renew);
-    cli.add_flag("!--no-gpu-cost", options.countGpuCost, "Measure without counting the candidates' cycles on navi21 besides");
+    cli.add_flag("!--no-gpu-cost", options.withGpuCost, "Measure without counting the candidates' cycles on navi21 besides");
 
     cli.option_defaults()->group("Output");
     cli.add_option("--out", out, "Folder of the results")->capture_default_str();

@@ -22,7 +22,7 @@ struct Options {
     std::vector<std::string> gpuCost;    // chips whose compiler counts costs, instead of measuring; see gpu_cost/chip.h
     std::filesystem::path checkGpuCost;  // a baseline to compare these costs with
     std::filesystem::path renewGpuCost;  // a baseline to write
-    bool countGpuCost = true;            // beside the measurement
+    bool withGpuCost = true;             // counted beside the measurement
     std::filesystem::path table;         // a Markdown file with markers of tables.h
     double tolerance = 0.05;             // relative growth of times allowed in addition to their confidence interval
     bool absolute = false;               // compare milliseconds

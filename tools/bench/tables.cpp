@@ -213,7 +213,7 @@ std::string briefTable(const Results& results) {
 std::string costTable(const Results& results) {
     std::vector<Table> tables = tablesOf(results);
     if (tables.empty() || results.gpu.empty())
-        throw app::Complaint("--table: the results have no GPU costs; measure again, without --no-gpu-cost");
+        throw app::Complaint("--table: the results have no GPU costs; measure again where Mesa's RADV is installed, without --no-gpu-cost");
     Table& table = tables.front();
     std::erase_if(table.lines, [](const Line& line) { return !line.gpu; });
     std::stable_sort(table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) { return a.gpu->cycles < b.gpu->cycles; });

@@ -173,6 +173,7 @@ MethodCost CostModel::costOf(const Workload& load) {
         result.bytes += cost.bytes;
         result.registers = std::max(result.registers, cost.registers);
         result.waves = std::min(result.waves, cost.waves);
+        result.loops = result.loops || cost.loops;
         result.passes.push_back(cost);
     }
     result.arithmeticMs = result.cycles * pixels / 64.0 / (m_chip.simds * m_chip.gigahertz * 1e9) * 1e3;

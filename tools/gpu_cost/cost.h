@@ -34,6 +34,7 @@ struct MethodCost {
     std::vector<PassCost> passes;
     double cycles = 0, fetches = 0, bytes = 0;  // sums
     double registers = 0, waves = 0;            // the worst pass's
+    bool loops = false;                         // any pass's
     double arithmeticMs = 0, memoryMs = 0;      // floors at the workload's size
 };
 

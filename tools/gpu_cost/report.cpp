@@ -58,10 +58,9 @@ std::string markdown(const Table& table) {
         table.chip, chip.product, table.driver, table.falloff, table.width, table.height);
     for (const Row& row : table.rows) {
         double spills = 0;
-        bool guessed = false;
-        for (const PassCost& pass : row.cost.passes) spills += pass.spills, guessed = guessed || pass.loops;
+        for (const PassCost& pass : row.cost.passes) spills += pass.spills;
         text += fmt::format("| {}{} | {} | {}{:.0f} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.3f} | {:.3f} | {} |\n", row.method,
-            row.baseline ? " (baseline)" : "", row.preset + (row.settings.empty() ? "" : " " + row.settings), guessed ? "~" : "",
+            row.baseline ? " (baseline)" : "", row.preset + (row.settings.empty() ? "" : " " + row.settings), row.cost.loops ? "~" : "",
             row.cost.cycles, row.cost.fetches, row.cost.bytes, row.cost.registers, row.cost.waves, spills, row.cost.arithmeticMs,
             row.cost.memoryMs, row.geometry);
     }

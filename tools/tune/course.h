@@ -24,8 +24,9 @@ struct Leg {                         // measurements of one flight
 class Course {
 public:
     Course(measure::Machine& machine, const std::vector<Place>& places, const std::vector<measure::FalloffChoice>& falloffs,
-        const flythrough::Settings& settings, CycleClock* clock = nullptr);  // clock: null for milliseconds
-    bool countsCycles() const { return m_clock; }                            // then the same candidate has the same time
+        const flythrough::Settings& settings,
+        CycleClock* clock = nullptr);              // clock: null for milliseconds; it and `falloffs` must outlive this
+    bool countsCycles() const { return m_clock; }  // then the same candidate has the same time
     size_t size() const { return m_flights.size(); }
     const std::string& name(size_t leg) const { return m_names[leg]; }  // "atrium@4 quadratic:2"
     Leg fly(size_t leg, const measure::Candidate& candidate);

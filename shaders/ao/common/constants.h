@@ -81,7 +81,7 @@ OBSCURA_SHARED_SIZE(Upsample, 12);
 struct FalloffTable {  // falloff_table.comp
     FalloffBlock falloff;
     float unit;            // metres: the falloff's length
-    uint kind;
+    uint kind;             // FalloffKind
 };
 OBSCURA_SHARED_SIZE(FalloffTable, 20);
 

@@ -147,7 +147,7 @@ vec2 sectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float skyDepth
              end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;  // of near-field occlusion; its horizon rises anyway
         // Search for the next point that counts, then add it, so that neighbouring pixels diverge less. Neither search is inside a branch:
-        // SwiftShader loses lanes of a loop that only some lanes enter.
+        // SwiftShader loses lanes of a loop in a branch that only some lanes take.
         Found found = Found(vec2(0.0), 0.0, false), before = found;
         do {
             bool hit = false;

@@ -5,13 +5,13 @@
     falloff: '',
     reference: '',
     size: '',
-    cost: data.rows.some(r => r.gpu) ? 'cycles' : 'ms',
+    cost: data.gpu ? 'cycles' : 'ms',
     quality: 'error',
     names: true,
     hidden: new Set(),
     marked: '',
     axis: '',
-    sort: data.rows.some(r => r.gpu) ? 'cycles' : 'median',
+    sort: data.gpu ? 'cycles' : 'median',
     descending: false,
     filter: '',
     row: -1
@@ -304,7 +304,7 @@
     axis: unique(data.fits.map(f => f.axis))
   };
   for (const [key, list] of Object.entries({cost: COSTS, quality: QUALITIES})) {
-    const measured = Object.keys(list).filter(k => k !== 'cycles' || data.rows.some(r => r.gpu));
+    const measured = Object.keys(list).filter(k => k !== 'cycles' || data.gpu);
     fill($(key), measured.map(k => [k, list[k].name]), state[key]);
     $(key).addEventListener('change', event => {
       state[key] = event.target.value;
