@@ -12,7 +12,7 @@ Status DepthMips::create(gpu::Device& device, const gpu::ShaderLibrary& shaders,
 
 gpu::ImageDesc DepthMips::desc(VkFormat format, shared::uvec2 size) {
     const uint32_t width = (size.x + 15) & ~15u, height = (size.y + 15) & ~15u;
-    return width > height ? gpu::ImageDesc{format, width, height + height / 2} : gpu::ImageDesc{format, width + width / 2, height};
+    return {format, width, height + height / 16 * 15};
 }
 
 graph::ImageId DepthMips::add(graph::Graph& graph, const Inputs& inputs, const char* passName, float range, float fade) {

@@ -31,7 +31,7 @@ graph::ImageId LayerPass::add(graph::Graph& graph, const Inputs& inputs, float s
         .read(packing.second)
         .write(result)
         .constants(packing.constants)
-        .dispatch(desc.width, desc.height);
+        .dispatch((inputs.view.size.x + 15) & ~15u, (inputs.view.size.y + 15) & ~15u);
     return result;
 }
 

@@ -228,7 +228,7 @@ TEST(OnAScene, passesOfSomeFramesOnlyAreTimed) {
     const TemporaryFolder scratch;
     const std::string file = (scratch / "a.json").string();
     const Ended ended =
-        runTool(shellCommand("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset quality"
+        runTool(shellCommand("--scene toasters --size 96x54 --rays 32 --warm-up 0 --frames 1 --rounds 8 --method layered --preset ultra"
                              " --reference screen --json {}",
             file));
     ASSERT_EQ(ended.code, 0) << ended.error;

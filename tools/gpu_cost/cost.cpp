@@ -76,17 +76,24 @@ double fetchesIn(const std::string& assembly) {
     return double(std::distance(std::sregex_iterator(assembly.begin(), assembly.end(), kLoad), std::sregex_iterator()));
 }
 
-// Whether a branch leads back to a block before it.
+// Whether a branch leads back to a block before it, or is too long to say where it leads.
 bool hasLoop(const std::string& assembly) {
     static const std::regex kLabel("^BB(\\d+):"), kBranch("s_c?branch\\w* BB(\\d+)");
     std::istringstream in(assembly);
     int block = -1;
     std::smatch match;
     for (std::string line; std::getline(in, line);) {
+        if (line.find("s_setpc") != std::string::npos) return true;
         if (std::regex_search(line, match, kLabel)) block = std::stoi(match[1]);
         if (std::regex_search(line, match, kBranch) && std::stoi(match[1]) <= block) return true;
     }
     return false;
+}
+
+// Whether the estimate is latency / waves: unrolled code takes more registers than the loop that runs, so that too few waves fit.
+bool boundByLatency(const gpu::PipelineStatistics& statistics) {
+    const double waves = statistics.of("Latency") / statistics.of("Inverse Throughput");
+    return waves < statistics.of("Subgroups per SIMD") && std::abs(waves - std::round(waves)) < 1e-3;
 }
 
 gpu::PipelineStatistics compiled(
@@ -120,7 +127,8 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, std::span<const std
     const gpu::PipelineStatistics counted =
         compiled(m_compiler, pass, reflection, withFixedConstants(shader->spirv, constants, loopsOf(pass.shader)));
     const Compiled result{counted.of("Inverse Throughput"), fetchesIn(counted.assembly), asIs.of("VGPRs"), asIs.of("Spilled VGPRs"),
-        asIs.of("Subgroups per SIMD"), asIs.of("LDS size"), counted.of("Subgroup size"), hasLoop(counted.assembly)};
+        asIs.of("Subgroups per SIMD"), asIs.of("LDS size"), counted.of("Subgroup size"), hasLoop(counted.assembly),
+        boundByLatency(counted)};
     if (result.cycles < 0)
         throw app::Complaint(
             fmt::format("{} says nothing of inverse throughput; Mesa 22.3 and later do", m_compiler.caps().deviceName), app::kFailed);
@@ -133,15 +141,21 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, bool& fitted) {
     if (!loops || loops->outer == kNone) return compile(pass, pass.constants);
     const uint32_t side = wordAt(pass.constants, loops->side), unit = side * side, outer = wordAt(pass.constants, loops->outer) / unit,
                    inner = wordAt(pass.constants, loops->inner);
-    if (outer * inner <= m_mostSamples || outer < 1 || inner < 1) return compile(pass, pass.constants);
-    // cost(o, i) = a + o (b + c i), from o, i of (4, 4), (4, 8), (8, 4): fewer iterations are simplified too much
+    if (outer < 1 || inner < 1) return compile(pass, pass.constants);
+    if (outer * inner <= m_mostSamples) {
+        const Compiled whole = compile(pass, pass.constants);
+        if (!whole.latencyBound) return whole;
+    }
+    // cost(o, i) = a + o (b + c i), from o, i of (n, n), (n, 2 n), (2 n, n). The fewer, the more is simplified; the more, the more registers.
     const auto at = [&](uint32_t o, uint32_t i) {
         return compile(pass, with(with(pass.constants, loops->outer, o * unit), loops->inner, i));
     };
-    const Compiled few = at(4, 4), more = at(4, 8), twice = at(8, 4);
-    const auto extrapolated = [&](double f, double m, double t) {
-        const double inside = (m - f) / 16, around = (t - f) / 4;  // c; b + 4 c
-        return f + (double(outer) - 4) * around + double(outer) * (double(inner) - 4) * inside;
+    uint32_t n = 4;
+    while (n > 2 && (at(n, 2 * n).latencyBound || at(2 * n, n).latencyBound)) --n;
+    const Compiled few = at(n, n), more = at(n, 2 * n), twice = at(2 * n, n);
+    const auto extrapolated = [&, n = double(n)](double f, double m, double t) {
+        const double inside = (m - f) / (n * n), around = (t - f) / n;  // c; b + n c
+        return f + (double(outer) - n) * around + double(outer) * (double(inner) - n) * inside;
     };
     Compiled result = few;
     result.cycles = extrapolated(few.cycles, more.cycles, twice.cycles);

@@ -2,8 +2,8 @@
 //     cycles = sum over compute passes of (inverse throughput of a wave) x (invocations a pixel) x 64 / (invocations a wave)
 // that is: cycles of a SIMD for every 64 pixels of the image. Inverse throughput is the compiler's estimate of how long a wave occupies its
 // SIMD. Counts are those of the preset: integer push constants are fixed and loops unrolled (fixed_constants.h); where that would be too
-// much code, three smaller counts are compiled and the cost extrapolated. Two floors of the time, by the chip's data sheet: arithmetic,
-// cycles x pixels / 64 / (SIMDs x clock); memory, bytes / bandwidth. A frame takes at least the larger.
+// much code or take too many registers, three smaller counts are compiled and the cost extrapolated. Two floors of the time, by the chip's
+// data sheet: arithmetic, cycles x pixels / 64 / (SIMDs x clock); memory, bytes / bandwidth. A frame takes at least the larger.
 #pragma once
 
 #include <map>
@@ -42,13 +42,13 @@ struct MethodCost {
 class CostModel {
 public:
     // mostSamples: iterations that are unrolled; costs of more are extrapolated.
-    CostModel(gpu::Device& compiler, const Chip& chip, const gpu::ShaderLibrary& shaders, uint32_t mostSamples = 64);
+    CostModel(gpu::Device& compiler, const Chip& chip, const gpu::ShaderLibrary& shaders, uint32_t mostSamples = 32);
     MethodCost costOf(const Workload& load);
 
 private:
     struct Compiled {
         double cycles, fetches, registers, spills, waves, sharedBytes, waveSize;
-        bool loops;
+        bool loops, latencyBound;
     };
     Compiled compile(const PassLoad& pass, std::span<const std::byte> constants);
     Compiled compile(const PassLoad& pass, bool& fitted);

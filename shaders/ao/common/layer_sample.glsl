@@ -6,15 +6,13 @@
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
 
-const float kFlat = 0.05;  // sine of the largest angle between samples that are in one plane
-
 struct LayerSample {
     Layers layers;
     vec3 ray;            // view ray, per metre of depth
     vec3 first, second;  // fronts of the layers
     vec2 cosines;        // between each front and the axis
     vec2 heights;        // sines of their elevation above the tangent plane
-    bool inPlane;        // of the sample before
+    bool joined;         // to the sample before: the slope between them allows that both are on one surface
 };
 // texel: packed layers of pixel q; n: the receiver's normal; axis: unit vector; before: front of the sample before.
 LayerSample layerSampleAt(View view, uvec4 texel, ivec2 q, vec3 here, vec3 n, vec3 axis, vec3 before) {
@@ -27,8 +25,8 @@ LayerSample layerSampleAt(View view, uvec4 texel, ivec2 q, vec3 here, vec3 n, ve
     s.cosines = vec2(dot(s.first, axis), dot(s.second, axis)) * inverse;
     s.heights = vec2(dot(s.first, n), dot(s.second, n)) * inverse;
     vec3 from = s.first - before;
-    float off = dot(unpackNormal(texel.y), from);
-    s.inPlane = off * off < kFlat * kFlat * dot(from, from);
+    float rise = dot(from, axis);
+    s.joined = rise * rise < s.layers.steepest * s.layers.steepest * (dot(from, from) - rise * rise);
     return s;
 }
 

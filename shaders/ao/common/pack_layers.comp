@@ -1,4 +1,4 @@
-// Packs depth, normal and depth layers into one texel; layout: packed_layers.glsl.
+// Packs depth and depth layers into one texel; layout: packed_layers.glsl.
 // In: depth, normals, depth layers. Out: RGBA32UI, or RG32UI with ONE_LAYER.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,15 +13,15 @@ layout(push_constant) uniform Block { PackLayers constants; };
 
 void main() {
     View view = viewBlock;
-    // All levels: each texel is packed from its pixel, see pixelIn().
-    ivec2 stored = ivec2(gl_GlobalInvocationID.xy), padded = paddedSize(view.size), last = ivec2(view.size) - 1, cell;
-    int level = mipAt(padded, stored, cell);
-    if (any(greaterThan(cell << level, last))) return;
-    uint normal;
-    Layers result = layersOfPixel(view, constants, pixelIn(cell, level, last), normal);
+    ivec2 q = ivec2(gl_GlobalInvocationID.xy), padded = paddedSize(view.size), last = ivec2(view.size) - 1;
+    vec3 normal;
+    Layers result = layersOfPixel(view, constants, min(q, last), normal);
 #ifdef ONE_LAYER
-    imageStore(packedLayers, stored, uvec4(packFirstLayer(result, normal), 0u, 0u));
+    uvec4 texel = uvec4(packFirstLayer(result), 0u, 0u);
 #else
-    imageStore(packedLayers, stored, packLayers(result, normal));
+    uvec4 texel = packLayers(result);
 #endif
+    imageStore(packedLayers, q, texel);
+    for (int level = 1; level < kDepthLevels; ++level)
+        if (copiedPixel(q, level) == q) imageStore(packedLayers, mipTexel(padded, q, level), texel);
 }

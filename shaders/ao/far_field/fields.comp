@@ -15,13 +15,14 @@ void main() {
     View view = viewBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.size)))) return;
-    uint normal;
-    Layers s = layersOfPixel(view, constants.layers, p, normal);
+    vec3 n;
+    Layers s = layersOfPixel(view, constants.layers, p, n);
     bool last = s.firstLength <= -kEndless || (s.firstLength < 0.0 && s.second <= 0.0) || isSky(view, s.first);
     bool behind = s.firstLength > 0.0 && s.second > 0.0 && s.secondLength < 0.0;
     imageStore(background, p, vec4(last ? s.first : behind ? s.second : view.skyDepth));
     // The front is a plane, so unit / depth is linear over the image.
-    vec3 n = unpackNormal(normal), position = eyePosition(view, vec2(p) + 0.5, s.first);
+    n = normalize(n);
+    vec3 position = eyePosition(view, vec2(p) + 0.5, s.first);
     float away = view.orthographic > 0.5 ? -n.z * s.first * s.first : dot(n, position), front = constants.unit / s.first;
     vec2 growth = n.xy * view.unproject.xy * constants.unit / (abs(away) > 1e-12 ? away : 1e-12);
     // The slope per pixel is at most the thickness, for fronts that curve away.

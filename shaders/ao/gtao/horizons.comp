@@ -67,11 +67,12 @@ void main() {
 #ifdef DEPTH_LAYERS
                 vec2 at = side == 0 ? r.pixel + offset : r.pixel - offset;
                 bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
-                ivec2 cell = clamp(ivec2(at), ivec2(0), r.last) >> level, q = pixelIn(cell, level, r.last);
-                uvec4 texel = imageLoad(packedLayers, cell + mipTexel(r.padded, ivec2(0), level));
+                ivec2 q = clamp(ivec2(at), ivec2(0), r.last);
+                uvec4 texel = imageLoad(packedLayers, mipTexel(r.padded, q, level));
+                q = copiedPixel(q, level);
                 LayerSample s = layerSampleAt(view, texel, q, r.here, r.n, r.v, halves[side].previous);
                 coverLayer(halves[side], rho, r.v, s.first, s.ray, s.layers.firstLength, s.cosines.x,
-                    s.inPlane ? halves[side].previousCosine : 1.0, inside && s.heights.x > 0.001);
+                    s.joined ? halves[side].previousCosine : 1.0, inside && s.heights.x > 0.001);
                 coverLayer(halves[side], rho, r.v, s.second, s.ray, s.layers.secondLength, s.cosines.y, 1.0,
                     inside && s.layers.second > 0.0 && s.heights.y > 0.001);
                 halves[side].previous = inside ? s.first : halves[side].previous;

@@ -114,7 +114,7 @@ void main() {
             bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, size));
 #ifdef DEPTH_LAYERS
             LayerSample s = layerSampleAt(view, imageLoad(packedLayers, q), q, here, n, v, arc.previous);
-            covered += coverLayer(arc, rho, s.first, s.ray, s.layers.firstLength, s.cosines.x, s.inPlane ? arc.previousSine : 1.0, v,
+            covered += coverLayer(arc, rho, s.first, s.ray, s.layers.firstLength, s.cosines.x, s.joined ? arc.previousSine : 1.0, v,
                 inside && s.heights.x >= leastRise);
             covered += coverLayer(arc, rho, s.second, s.ray, s.layers.secondLength, s.cosines.y, 1.0, v,
                 inside && s.layers.second > 0.0 && s.heights.y >= leastRise);

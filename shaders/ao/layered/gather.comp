@@ -1,7 +1,7 @@
 // Gather of interleaved shares over side x side neighbours. For an even side the window is one pixel wider and its outer rows have half
-// weight, so that all shares weigh the same and no tile pattern is left. Neighbours are weighted by how closely they are on this pixel's
-// surface. Blocked and total integrals are averaged separately, so that an edge that excludes some slices adds no bias. With a map, map
-// pixels gather first; image pixels then gather from the four map pixels around them.
+// weight, so that all shares weigh the same and no tile pattern is left. Neighbours are weighted by their distance to this pixel's tangent
+// plane. Blocked and whole integrals are averaged separately, so that an edge that excludes some slices adds no bias. With a map, map pixels
+// gather first; image pixels then gather from the four map pixels around them, which is bilinear along a surface.
 // In: linear depth, packed normals; shares of the image's or the map's pixels. Out: visibility, or with TO_MAP gathered shares.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -22,7 +22,6 @@ layout(set = 0, binding = 4, r16f) uniform writeonly image2D visibility;
 #endif
 layout(push_constant) uniform Block { LayeredGather constants; };
 
-const float kAcross = 0.03;   // least cosine between normals, so that surfaces missing in the map still get a value
 const float kPlane = 1000.0;  // per plane distance / depth: half the weight at a thousandth of the depth
 
 void main() {
@@ -38,35 +37,35 @@ void main() {
     vec2 place = (vec2(p) - float(constants.map / 2u)) / float(constants.map);
 #endif
     float z = imageLoad(depth, p + guard).x;
-    vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
-    // A neighbour's distance to this pixel's tangent plane, computed from pixel and depth without its position.
+    // A neighbour's distance to the tangent plane, from its depth and pixel: n.r is linear over the image, r the view ray.
     bool orthographic = view.orthographic > 0.5;
+    vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
     vec2 slope = n.xy * view.unproject.xy;
-    float ray = dot((vec2(p + guard) + 0.5), slope) + dot(n.xy, view.unproject.zw), plane = ray * (orthographic ? 1.0 : z) - n.z * z;
+    float ray = dot(vec2(p + guard) + 0.5, slope) + dot(n.xy, view.unproject.zw), plane = ray * (orthographic ? 1.0 : z) - n.z * z;
     float sharpness = kPlane / z;
     ivec2 first = ivec2(floor(place)) - int(constants.before);
+    // The neighbour's ray; neighbours beyond the image's edge are taken to be at its map pixel's place all the same.
+    float firstRay = ray + dot(vec2(first * int(constants.map) + int(constants.map / 2u) - p), slope);
+    vec2 stepRay = slope * float(constants.map);
     int end = int(constants.taps);
     vec2 sum = vec2(0.0);
     int y = 0;
     while (true) {
+        float window = clamp(constants.covers - abs(float(first.y + y) - place.y), 0.0, 1.0);
         int x = 0;
         while (true) {
-            ivec2 at = first + ivec2(x, y), q = clamp(at, ivec2(0), last), pixel = pixelOfMap(q, constants.map, visible);
-            uvec2 share = imageLoad(shares, q).xy;
+            uvec2 share = imageLoad(shares, clamp(first + ivec2(x, y), ivec2(0), last)).xy;
             float there = shareDepth(share);
-            float off = (ray + dot(vec2(pixel - p), slope)) * (orthographic ? 1.0 : there) - n.z * there - plane;
-            float cosine = max(dot(n, shareNormal(share)), kAcross);
-            cosine *= cosine;
-            vec2 window = clamp(constants.covers - abs(vec2(at) - place), 0.0, 1.0);
-            float w = at == q ? window.x * window.y * cosine * cosine / (1.0 + sharpness * abs(off)) : 0.0;
-            sum += (pixel == p ? 1.0 : w) * shareIntegrals(share);
+            float off = (firstRay + dot(vec2(x, y), stepRay)) * (orthographic ? 1.0 : there) - n.z * there - plane;
+            float w = window * clamp(constants.covers - abs(float(first.x + x) - place.x), 0.0, 1.0) / (1.0 + sharpness * abs(off));
+            sum += w * shareIntegrals(share);
             if (++x >= end) break;
         }
         if (++y >= end) break;
     }
     float blocked = isSky(view, z) ? 0.0 : clamp(sum.x / max(sum.y, 1e-6), 0.0, 1.0);
 #ifdef TO_MAP
-    imageStore(gathered, here, uvec4(packShare(z, n, blocked, 1.0), 0u, 0u));
+    imageStore(gathered, here, packShare(z, blocked, 1.0));
 #else
     imageStore(visibility, here, vec4(1.0 - blocked));
 #endif

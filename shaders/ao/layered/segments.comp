@@ -1,5 +1,5 @@
-// Segments of occlusion around each pixel: for every slice and step the depth layers there cover part of the hemisphere, each bit once,
-// with the falloff at the covering segment. Formulas: runtime/ao/methods/layered/layered.cpp.
+// Segments of occlusion around each pixel: in each slice every sample covers the angles between the front and the back of what it hits, each
+// bit once, with the falloff at its nearest point. Formulas: runtime/ao/methods/layered/layered.cpp.
 // In: normals and packed layers (one per texel; TWO_LAYERS: two; NO_LAYERS: depth, with an assumed thickness), guard band included.
 // Out: shares (shares.glsl) of each image pixel or map pixel.
 #version 460
@@ -19,44 +19,32 @@ layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, rg32ui) uniform writeonly uimage2D shares;
 layout(push_constant) uniform Block { LayeredSegments constants; };
 
-// Layers and normal (not normalised) of a pixel, which a texel of a coarser level is a copy of.
+// Layers of a pixel, and the texel that is a copy of it.
 #if defined(NO_LAYERS)
 layout(set = 0, binding = 2, r32f) uniform readonly image2D depth;
 float depthAt(ivec2 pixel) { return imageLoad(depth, pixel).x; }
-Layers layersAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
-    normal = directionOf(imageLoad(normals, pixel).x);
-    return Layers(depthAt(pixel), -abs(assumed), 0.0, 1.0);  // abs() lets the compiler drop the code for solids
-}
+Layers layersAt(ivec2 pixel, ivec2 texel) { return Layers(depthAt(pixel), -constants.assumed, 0.0, 0.0, 0.0); }
 #elif defined(TWO_LAYERS)
 layout(set = 0, binding = 2, rgba32ui) uniform readonly uimage2D packedLayers;
 float depthAt(ivec2 pixel) { return uintBitsToFloat(imageLoad(packedLayers, pixel).x); }
-Layers layersAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
-    uvec4 packed = imageLoad(packedLayers, texel);
-    normal = normalOf(packed);
-    return unpackLayers(packed);
-}
+Layers layersAt(ivec2 pixel, ivec2 texel) { return unpackLayers(imageLoad(packedLayers, texel)); }
 #else
 layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D packedLayers;
 float depthAt(ivec2 pixel) { return uintBitsToFloat(imageLoad(packedLayers, pixel).x); }
-Layers layersAt(ivec2 pixel, ivec2 texel, float assumed, out vec3 normal) {
-    uvec2 packed = imageLoad(packedLayers, texel).xy;
-    normal = normalOf(packed);
-    return unpackFirstLayer(packed);
-}
+Layers layersAt(ivec2 pixel, ivec2 texel) { return unpackFirstLayer(imageLoad(packedLayers, texel).xy); }
 #endif
 
-const float kAbove = 0.002;          // least sine of a sample above the tangent plane
-const float kFlat = 0.1;             // sine of the largest angle between samples that are in one plane
-const float kRise = 0.012;           // else: most that a surface is extended in depth over a stratum, in depths
-const float kThin = 0.5;             // length of a thin object, in strata; 1 would be unbiased for round objects, but noisier
 const float kNextStep = 0.61803399;  // shift of the samples from slice to slice
+const float kTooClose = 1.3;         // px: nearer samples are the pixel itself
 
-// Rotation of the slices and shift of the steps, in [0,1). Any 4x4 window contains all 16 values once, any 2x2 window one of each quarter.
-// A hash has three times the error after the gather.
+// Rotation of the slices and shift of the steps, in [0,1), for each pixel of the tile. The gather averages exactly one tile. A hash has
+// three times the error after the gather.
 vec2 tileNoise(uvec2 p, uint side) {
-    uint nine = p.x % 3u + 3u * (p.y % 3u), sixteen = bayer16(p);
-    vec2 ranks = side == 3u ? vec2(nine, nine % 3u * 3u + nine / 3u) : vec2(sixteen, bitfieldReverse(sixteen) >> 28);
-    return (ranks + 0.5) / (side == 3u ? 9.0 : 16.0);
+    uint nine = p.x % 3u + 3u * (p.y % 3u), four = bayer(p), sixteen = bayer16(p);
+    vec2 ranks = side == 3u   ? vec2(nine, nine % 3u * 3u + nine / 3u)
+                 : side == 2u ? vec2(four, bitfieldReverse(four) >> 30)
+                              : vec2(sixteen, bitfieldReverse(sixteen) >> 28);
+    return (ranks + 0.5) / (side == 3u ? 9.0 : side == 2u ? 4.0 : 16.0);
 }
 
 void main() {
@@ -64,98 +52,66 @@ void main() {
     FalloffBlock rho = constants.falloff;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(shares)))) return;
-    ivec2 texel = pixelOfMap(p, constants.map, ivec2(view.visible)) + ivec2(view.guard), last = ivec2(view.size) - 1,
-          padded = paddedSize(view.size);
-    float z = depthAt(texel), thick = constants.assumed;
-    if (isSky(view, z)) {
-        imageStore(shares, p, uvec4(packShare(z, vec3(0.0, 0.0, 1.0), 0.0, 1.0), 0u, 0u));
+    ivec2 texel = pixelOfMap(p, constants.map, ivec2(view.visible)) + ivec2(view.guard);
+    if (isSky(view, depthAt(texel))) {
+        imageStore(shares, p, packShare(depthAt(texel), 0.0, 1.0));
         return;
     }
-    bool orthographic = view.orthographic > 0.5;
-    vec2 pixel = vec2(texel) + 0.5;
-    vec3 position = eyePosition(view, pixel, z);
-    Pixel here;
-    here.ray = pixel * view.unproject.xy + view.unproject.zw;
-    here.scale = orthographic ? 1.0 : z;
-    here.perspective = orthographic ? 0.0 : 1.0;
-    here.depth = z;
-    here.v = towardsEye(view, position);
-    here.n = unpackNormal(imageLoad(normals, texel).x);
-    if (dot(here.n, here.v) < 0.0) here.n = -here.n;
-
     vec2 noise = fract(tileNoise(uvec2(p), constants.side) + frameShift(view).xy);
-    float reach = min(rho.reach * view.pixelsPerMetre / here.scale, constants.maxPixels);
-    vec3 tangent = normalize(vec3(1, 0, 0) - here.v * here.v.x), across = cross(tangent, here.v);
-    float nv = dot(here.n, here.v), blocked = 0.0, measure = 0.0;
+    bool orthographic = view.orthographic > 0.5;
+    int below = 2 * paddedSize(view.size).y;  // coarser levels end here, see depth_mips.glsl
+    float sliceCount = float(constants.slices), stratum = 1.0 / float(constants.steps), blocked = 0.0, whole = 0.0;
     // Loops are post-tested: lavapipe runs a pre-tested loop once more with every lane masked.
     for (uint k = 0u;;) {
+        // The receiver is computed for each slice again, because the registers that it would take cost more.
+        float z = depthAt(texel);
+        vec2 pixel = vec2(texel) + 0.5;
+        vec3 position = eyePosition(view, pixel, z), v = towardsEye(view, position), n = unpackNormal(imageLoad(normals, texel).x);
+        n = dot(n, v) < 0.0 ? -n : n;
+        float perMetre = orthographic ? 1.0 : z, reach = min(rho.reach * view.pixelsPerMetre / perMetre, constants.maxPixels);
+
         // Slices are evenly spaced around the view ray, not on the screen, so that they cover the hemisphere evenly.
-        float turn = kPi * (float(k) + noise.x) / float(constants.slices);
+        vec3 tangent = normalize(vec3(1, 0, 0) - v * v.x), across = cross(tangent, v);
+        float turn = kPi * (float(k) + noise.x) / sliceCount;
         vec3 od = tangent * cos(turn) + across * sin(turn);
-        vec2 step = (od.xy * here.scale + (orthographic ? vec2(0.0) : position.xy * od.z)) * view.project.xy;
+        vec2 step = (od.xy * perMetre + (orthographic ? vec2(0.0) : position.xy * od.z)) * view.project.xy;
         step *= inversesqrt(max(dot(step, step), 1e-20));
-        vec2 stepRay = step * view.unproject.xy;
-        float no = dot(here.n, od), angle = atan(no, nv);
-        float sine = no * inversesqrt(max(no * no + nv * nv, 1e-12));
-        float jitter = noise.y + kNextStep * float(k);
+        Receiver receiver = receiverOf(view, pixel, v, n, od);
+        float nv = dot(n, v), no = dot(n, od), angle = atan(no, nv), sine = no * inversesqrt(max(no * no + nv * nv, 1e-12));
+        // Distances to the buffers' edges along the step and against it, px.
+        vec2 inverse = 1.0 / max(abs(step), vec2(1e-6)), low = (pixel - 0.5) * inverse, high = (vec2(view.size) - 0.5 - pixel) * inverse;
+        bvec2 rising = greaterThan(step, vec2(0.0));
+        vec2 ahead = mix(low, high, rising), behind = mix(high, low, rising);
+        float place = fract(noise.y + kNextStep * float(k));
         for (uint halfIndex = 0u;;) {  // an integer counts, so that compilers know how often
             float sign = halfIndex == 0u ? 1.0 : -1.0;
-            float whole = 0.5 * max(nv + angle * no + sign * 0.5 * kPi * no, 0.0);
-            float scale = 16.0 / max(whole, 1e-6);
-            Side state = Side(-sign * sine, nv * scale, sign * no * scale, 0u, 0.0, vec3(0.0), here.n, 1.0, 1.0);
-            float place = fract(jitter + (sign > 0.0 ? 0.0 : 0.5));
+            vec2 edges = halfIndex == 0u ? ahead : behind;
+            float farthest = min(edges.x, edges.y), own = 0.5 * max(nv + angle * no + sign * 0.5 * kPi * no, 0.0);
+            Side side = sideOf(nv, sign * no, -sign * sine, own);
+            float end = 1.0;
             for (uint i = 0u;;) {
-                float part = 1.0 / float(constants.steps), t0 = float(i) * part, t1 = t0 + part;
-                float e0 = max(t0 * sqrt(t0) * reach, 1.0), e1 = max(t1 * sqrt(t1) * reach, 1.0);
-                float t = t0 + place * part;
-                float l = max(t * sqrt(t) * reach, 1.3);
-                vec2 at = pixel + sign * l * step;
-                bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
+                float t = (float(i) + place) * stratum, l = max(t * t * reach, kTooClose), start = end;
+                t = float(i + 1u) * stratum;
+                end = max(t * t * reach, 1.0);
+                Plate plate = plateOf(l, start, end);
+                ivec2 at = ivec2(pixel + sign * min(l, farthest) * step);
                 int level = levelFor(l);
-                ivec2 cell = clamp(ivec2(at), ivec2(0), last) >> level, q = pixelIn(cell, level, last);
-                vec3 ns;
-                Layers layers = layersAt(q, cell + mipTexel(padded, ivec2(0), level), thick, ns);
-                Ray ray = rayAt(here, (vec2(q) + 0.5 - pixel) * view.unproject.xy);
-                float zs = layers.first, f = zs - z;
-
-                // The surface is extended in its tangent plane to both ends of the stratum, by at most its thickness in depth. It is
-                // extended further only if the previous sample is in the same plane (facets of a relief would become spikes), and then back
-                // to the end of that sample's surface. A sheet after a concave edge is extended back to the previous sample.
-                vec3 d = vec3(ray.offset, 0.0) + f * ray.dir, from = d - state.previous;
-                float off = dot(ns, from), plane = dot(ns, d);
-                bool samePlane = off * off < kFlat * kFlat * dot(ns, ns) * dot(from, from);
-                bool concave = off < 0.0 && dot(state.previousNormal, from) > 0.0 && layers.firstLength < 0.0;
-                Ray ray0 = rayAt(here, sign * min(samePlane ? state.previousEnd : concave ? state.previousAt : e0, l) * stepRay),
-                    ray1 = rayAt(here, sign * max(e1, l) * stepRay);
-                float maxRise = (samePlane ? 0.5 : kRise) * zs;
-                maxRise = layers.firstLength > 0.0 ? min(layers.firstLength, maxRise) : maxRise;
-                float maxRise0 = concave ? 0.5 * zs : maxRise;
-                float f0 = clamp((plane - dot(ns.xy, ray0.offset)) / min(dot(ns, ray0.dir), -1e-4), f - maxRise0, f + maxRise0);
-                float end = (plane - dot(ns.xy, ray1.offset)) / min(dot(ns, ray1.dir), -1e-4), f1 = clamp(end, f - maxRise, f + maxRise);
-                state.previous = inside ? d : state.previous;
-                state.previousNormal = inside ? ns : state.previousNormal;
-                state.previousAt = inside ? l : state.previousAt;
-                state.previousEnd = inside ? (f1 == end ? max(e1, l) : l) : state.previousEnd;
-                float nearest = concave ? abs(plane) * inversesqrt(max(dot(ns, ns), 1e-20)) : 1e9;
-                // A solid thinner than its stratum is rarely hit; a hit is lengthened to compensate for the misses.
-                float least = abs(from.z) > layers.firstLength ? kThin * length(ray1.offset - ray0.offset) : 0.0;
-                bool above = dot(d, here.n) > kAbove * length(d);  // samples in the tangent plane cover nothing
-                coverLayer(state, rho, ray0, ray, ray1, f0, f, f1, layers.firstLength, nearest, least, inside && above && !isSky(view, zs));
+                ivec2 copied = copiedPixel(at, level);
+                Layers layers = layersAt(copied, ivec2(at.x >> level, (at.y - below >> level) + below));
+                Aside aside = asideOf(receiver, vec2(copied) + 0.5 - pixel, sign);
+                cover(side, receiver, rho, plate, aside, layers.first, layers.first - z, layers.firstLength, layers.steepest,
+                    l < farthest && !isSky(view, layers.first), true);
 #ifdef TWO_LAYERS
-                float g = layers.second - z;
-                vec3 b = vec3(ray.offset, 0.0) + g * ray.dir;
-                bool secondAbove = dot(b, here.n) > kAbove * length(b);
-                coverLayer(
-                    state, rho, ray0, ray, ray1, g, g, g, layers.secondLength, 1e9, 0.0, inside && secondAbove && layers.second > 0.0);
+                cover(side, receiver, rho, plate, aside, layers.second, layers.second - z, layers.secondLength, 0.0,
+                    l < farthest && layers.second > 0.0, false);
 #endif
                 if (++i >= constants.steps) break;
             }
-            blocked += state.blocked * whole;
-            measure += whole;
+            blocked += side.blocked * own;
+            whole += own;
             if (++halfIndex >= 2u) break;
         }
         if (++k >= constants.slices) break;
     }
-    float sliceCount = float(constants.slices);
-    imageStore(shares, p, uvec4(packShare(z, here.n, blocked / (32.0 * sliceCount), measure / sliceCount), 0u, 0u));
+    imageStore(shares, p, packShare(depthAt(texel), blocked / (32.0 * sliceCount), whole / sliceCount));
 }

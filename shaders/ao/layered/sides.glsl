@@ -1,85 +1,98 @@
-// One side of a slice: its view rays, and coverage of its integral by depth layers.
+// One side of a slice, and how a sample covers its integral. In the slice's plane the receiver is the origin, a is the coordinate along v
+// towards the eye, b the one along the slice's direction across it; metres.
 #ifndef OBSCURA_SIDES_GLSL
 #define OBSCURA_SIDES_GLSL
 #include "ao/common/packed_layers.glsl"
 #include "shared/falloff.h"
+#include "shared/view.h"
 
 const float kPi = 3.14159265;
+const float kAbove = 0.002;  // least sine of a sample above the tangent plane
+const float kPlate = 0.65;    // part of its stratum that a sample stands for, to each end
 
-// View ray at a place on the slice. Points relative to the pixel's position: offset + (F - D) dir, F their depth and D the pixel's.
-struct Ray {
-    vec2 offset;
-    vec3 dir;
-    float v0, v1;      // dot(offset, v), dot(dir, v)
-    float d0, d1, d2;  // squared distance: d0 + 2 d1 (F-D) + d2 (F-D)^2
-};
-struct Pixel {
-    vec2 ray;       // eye.xy / depth; orthographic: eye.xy
-    float scale;    // metres per unit of a difference of rays: depth, or 1 if orthographic
+const float kJoin = 1.0;     // least slope up to which a sample and the one before are taken to be on one surface
+
+// The pixel as its samples see it. A sample d pixels away, with depth F, is at F (d.x, d.y, 0) + (F - D) ray from a receiver of depth D, in
+// units of unproject; so dot products with v, od and n are linear in d, F and F - D.
+struct Receiver {
+    vec2 v, od, n;      // per pixel
+    float rayV, rayN;   // of the receiver's view ray, per metre of depth
+    float inverseV;     // depth per metre towards the eye
     float perspective;  // 1, or 0 if orthographic
-    float depth;
-    vec3 n, v;
 };
-
-Ray rayAt(Pixel here, vec2 aside) {  // aside: difference of rays
-    Ray r;
-    r.offset = aside * here.scale;
-    r.dir = vec3((here.ray + aside) * here.perspective, -1.0);
-    r.v0 = dot(r.offset, here.v.xy);
-    r.v1 = dot(r.dir, here.v);
-    r.d0 = dot(r.offset, r.offset);
-    r.d1 = dot(r.offset, r.dir.xy);
-    r.d2 = dot(r.dir, r.dir);
+Receiver receiverOf(View view, vec2 pixel, vec3 v, vec3 n, vec3 od) {
+    Receiver r;
+    r.perspective = view.orthographic > 0.5 ? 0.0 : 1.0;
+    vec3 ray = vec3((pixel * view.unproject.xy + view.unproject.zw) * r.perspective, -1.0);
+    r.v = v.xy * view.unproject.xy;
+    r.od = od.xy * view.unproject.xy;
+    r.n = n.xy * view.unproject.xy;
+    r.rayV = dot(ray, v);
+    r.rayN = dot(ray, n);
+    r.inverseV = -1.0 / r.rayV;
     return r;
 }
-float square(Ray r, float f) { return r.d0 + f * (2.0 * r.d1 + f * r.d2); }
-// Cosine of the angle at the pixel between the eye and a point.
-float cosine(Ray r, float f) { return (r.v0 + f * r.v1) * inversesqrt(max(square(r, f), 1e-20)); }
-// Distance to the nearest point of a ray between depth differences f and end.
-float distanceTo(Ray r, float f, float end) { return sqrt(max(square(r, clamp(-r.d1 / r.d2, f, end)), 0.0)); }
-
-// One side of a slice. Integrals are in 32nds of the whole side's. The integral up to cosine c is
-// squareWeight (1 - c^2) + arcWeight (pi/2 - arcTerm(c)).
-struct Side {
-    float least, squareWeight, arcWeight;  // least: cosine at the hemisphere's edge
-    uint covered;
-    float blocked;                         // 32nds
-    vec3 previous, previousNormal;         // the previous sample, from the pixel, and its normal
-    float previousAt, previousEnd;         // px: its distance, and the end to which its surface was extended
+struct Aside {
+    float v, od, n;  // of a sample's distance in the image, per metre of depth
 };
-// asin c + c sqrt(1 - c^2), to 0.0014.
-float arcTerm(float c) {
-    float c2 = c * c;
-    return c * (2.0109840 + c2 * (-0.4395425 + c2 * (0.2109025 - 0.2115477 * c2)));
+Aside asideOf(Receiver r, vec2 pixels, float sign) { return Aside(dot(pixels, r.v), sign * dot(pixels, r.od), dot(pixels, r.n)); }
+
+// Squared factors on b at the ends of the plate that a sample stands for. l, start, end: of the sample and its stratum, px.
+struct Plate {
+    float inner, outer;
+};
+Plate plateOf(float l, float start, float end) {
+    float inner = mix(1.0, min(start / l, 1.0), kPlate), outer = mix(1.0, max(end / l, 1.0), kPlate);
+    return Plate(inner * inner, outer * outer);
 }
-float bitAt(Side side, float c) {
-    c = max(c, side.least);
-    return clamp(side.squareWeight * (1.0 - c * c) + side.arcWeight * (0.5 * kPi - arcTerm(c)), 0.0, 32.0);
+
+// Integrals are in 32nds of the side's. The integral up to cosine c is full - squareWeight c^2 - arcWeight c arcFactor(c^2).
+struct Side {
+    float squareWeight, arcWeight, full;
+    float least;     // cosine at the hemisphere's edge
+    uint covered;    // a bit for each 32nd
+    float blocked;   // 32nds
+    float a, b;     // of the sample before
+    float place;
+    float distance;
+};
+Side sideOf(float nv, float no, float least, float whole) {
+    float scale = 16.0 / max(whole, 1e-6);
+    return Side(nv * scale, no * scale, (nv + 0.5 * kPi * no) * scale, least, 0u, 0.0, 0.0, 0.0, 32.0, 0.0);
 }
-void cover(inout Side side, float front, float back, float weight) {
-    uint bits = bitsBetween(bitAt(side, front), bitAt(side, back)) & ~side.covered;
+// (asin c + c sqrt(1 - c^2)) / c, to 0.007.
+float arcFactor(float c2) { return 1.98877 + c2 * (-0.27345 - 0.13895 * c2); }
+float placeOf(Side side, float a, float b2) {
+    float c = max(a * inversesqrt(max(a * a + b2, 1e-20)), side.least), c2 = c * c;
+    return side.full - side.squareWeight * c2 - side.arcWeight * c * arcFactor(c2);
+}
+
+// Covers what a layer of a sample hides: the plate from its front to its back and, if the slope to the sample before allows that both are on
+// one surface, the gap between them. f: depth relative to the receiver. first: the layer nearest the eye.
+void cover(inout Side side, Receiver r, FalloffBlock rho, Plate plate, Aside aside, float depth, float f, float size, float steepest,
+    bool counts, bool first) {
+    float metres = r.perspective > 0.5 ? depth : 1.0, towardsV = aside.v * r.perspective + r.rayV, towardsOd = aside.od * r.perspective;
+    float a = aside.v * metres + f * r.rayV, b = aside.od * metres, height = aside.n * metres + f * r.rayN;
+    float backA = a + abs(size) * towardsV, backB = b + abs(size) * towardsOd;
+    float from = placeOf(side, a, (a > 0.0 ? plate.inner : plate.outer) * b * b),
+          to = placeOf(side, backA, (backA > 0.0 ? plate.outer : plate.inner) * backB * backB);
+    float nearest = clamp(a * r.inverseV, 0.0, max(size, 0.0));  // a receiver behind a solid faces its back
+    float nearA = a + nearest * towardsV, nearB = b + nearest * towardsOd, distance = sqrt(nearA * nearA + nearB * nearB);
+    if (first) {
+        bool joined = abs(a - side.a) < max(steepest, kJoin) * abs(b - side.b);
+        Side before = side;
+        side.a = a;
+        side.b = b;
+        side.place = from;
+        side.distance = distance;
+        from = joined ? min(from, before.place) : from;
+        to = joined ? max(to, before.place) : to;
+        distance = joined ? 0.5 * (distance + before.distance) : distance;
+    }
+    bool above = height > kAbove * (abs(a) + abs(b));  // samples in the tangent plane cover nothing
+    uint bits = counts && above ? bitsBetween(from, min(to, 32.0)) & ~side.covered : 0u;
     side.covered |= bits;
-    side.blocked += weight * float(bitCount(bits));
-}
-
-// Harmonic mean of the distances of a segment's ends, where its falloff is evaluated: equal weights are evenly spaced in 1 / distance along
-// a plane. The mean of the two falloffs instead makes long strata too bright.
-float harmonicMean(float a, float b) { return 2.0 * a * b / max(a + b, 1e-20); }
-
-// Covers the segment of a layer over the stratum from ray e0 through l to e1. Its front is at depth differences f0, f, f1; size: its packed
-// length at l. The back of a solid keeps its depth, as for round objects, unless that halves the length; the back of a sheet is parallel to
-// its front. nearest: upper bound of the distance at e0. least: least length of a solid when it covers.
-void coverLayer(inout Side side, FalloffBlock rho, Ray e0, Ray l, Ray e1, float f0, float f, float f1, float size, float nearest,
-    float least, bool counts) {
-    bool solid = size > 0.0;
-    float b = f + abs(size), b0 = solid ? max(f0 + 0.5 * size, b) : f0 - size, b1 = solid ? max(f1 + 0.5 * size, b) : f1 - size;
-    float d = distanceTo(l, f, solid ? b : f), d0 = min(distanceTo(e0, f0, solid ? b0 : f0), min(d, nearest)),
-          d1 = distanceTo(e1, f1, solid ? b1 : f1);
-    float w0 = falloff(rho, harmonicMean(d, d0)), w1 = falloff(rho, harmonicMean(d, d1));
-    float more = solid ? max(least - size, 0.0) : 0.0;
-    float front = cosine(l, f), back = cosine(l, b + more);
-    cover(side, counts ? max(front, cosine(e0, f0)) : 1.0, counts ? min(back, cosine(e0, b0 + more)) : 1.0, w0);
-    cover(side, counts ? max(front, cosine(e1, f1)) : 1.0, counts ? min(back, cosine(e1, b1 + more)) : 1.0, w1);
+    side.blocked += falloff(rho, distance) * float(bitCount(bits));
 }
 
 #endif
