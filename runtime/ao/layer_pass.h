@@ -1,4 +1,4 @@
-// Packs depth, normal and one or two depth layers into one texel, so that a sample is a single load. A layer is an interval [front, back]
+// Packs depth and one or two depth layers into one texel, so that a sample is a single load. A layer is an interval [front, back]
 // of the view ray. The pass also gives open sheets a thickness and assigns a second layer of half size to whole pixels at edges.
 #pragma once
 

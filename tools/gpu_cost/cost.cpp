@@ -146,7 +146,8 @@ CostModel::Compiled CostModel::compile(const PassLoad& pass, bool& fitted) {
         const Compiled whole = compile(pass, pass.constants);
         if (!whole.latencyBound) return whole;
     }
-    // cost(o, i) = a + o (b + c i), from o, i of (n, n), (n, 2 n), (2 n, n). The fewer, the more is simplified; the more, the more registers.
+    // cost(o, i) = a + o (b + c i), from o, i of (n, n), (n, 2 n), (2 n, n). The fewer, the more is simplified; the more, the more
+    // registers.
     const auto at = [&](uint32_t o, uint32_t i) {
         return compile(pass, with(with(pass.constants, loops->outer, o * unit), loops->inner, i));
     };

@@ -25,8 +25,8 @@ LayerSample layerSampleAt(View view, uvec4 texel, ivec2 q, vec3 here, vec3 n, ve
     s.cosines = vec2(dot(s.first, axis), dot(s.second, axis)) * inverse;
     s.heights = vec2(dot(s.first, n), dot(s.second, n)) * inverse;
     vec3 from = s.first - before;
-    float rise = dot(from, axis);
-    s.joined = rise * rise < s.layers.steepest * s.layers.steepest * (dot(from, from) - rise * rise);
+    vec2 across = from.xy + from.z * s.ray.xy;  // difference of the view rays, at the depth of the sample before
+    s.joined = from.z * from.z < s.layers.steepest * s.layers.steepest * dot(across, across);
     return s;
 }
 

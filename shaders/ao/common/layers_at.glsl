@@ -13,8 +13,6 @@ layout(set = 0, binding = 3) uniform sampler2D thickness;
 layout(set = 0, binding = 4) uniform sampler2D second;
 layout(constant_id = 0) const uint kLayerCount = 2u;  // 1 or 2
 
-const float kCurved = 1.5;
-
 // Length as packed: negative unless solid, at least half a pixel.
 float lengthOf(float t, float sheetLength, float leastLength) {
     return t <= 0.0 ? -max(sheetLength, leastLength) : t >= kEndless ? -kEndless : max(t, leastLength);
@@ -30,9 +28,9 @@ Layers layersOfPixel(View view, PackLayers packing, ivec2 p, out vec3 normal) {
     vec3 ray = vec3(orthographic ? vec2(0.0) : (vec2(p) + 0.5) * view.unproject.xy + view.unproject.zw, -1.0);
     float slant = min(sqrt(dot(normal, normal) * dot(ray, ray)) / max(abs(dot(normal, ray)), 1e-6), 20.0);
     float t = texelFetch(thickness, p, 0).x;
-    // The plane through the sample rises by the tangent of its angle to the eye; the tolerance allows for curvature.
-    float steepest = kCurved * sqrt(max(slant * slant - 1.0, 0.0));
-    Layers result = Layers(z, lengthOf(t, packing.sheet * slant, leastLength), 0.0, 0.0, steepest);
+    // Along the tangent plane, depth changes by this for every metre across the view, at the depth of the other end.
+    float steepest = length(normal.xy) / max(abs(dot(normal, ray)), 1e-6);
+    Layers result = Layers(z, lengthOf(t, packing.sheet * slant, leastLength), 0.0, 0.0, min(steepest, 1000.0));
     if (kLayerCount > 1u) {
         ivec2 texel = p >> int(packing.shift);
         vec2 next = texelFetch(second, texel, 0).xy;

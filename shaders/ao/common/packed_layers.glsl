@@ -1,5 +1,5 @@
-// Packed depth layers: one or two layers (obscura/ao.h, DepthLayers) in one texel. A layer is the interval [front, front + length] of the view
-// ray, in linear depth. Written by pack_layers.comp. One layer, RG32UI:
+// Packed depth layers: one or two layers (obscura/ao.h, DepthLayers) in one texel. A layer is the interval [front, front + length] of the
+// view ray, in linear depth. Written by pack_layers.comp. One layer, RG32UI:
 //     x: linear depth, bits of a float; y: halves, length of the layer in metres along the camera's axis, and `steepest`
 // Two layers, RGBA32UI, the same and:
 //     z: length of the second, bits of a float; w: linear depth of the second, bits of a float, 0: none
@@ -16,7 +16,8 @@ const float kEndless = 65504.0;  // length of an endless layer
 struct Layers {
     float first, firstLength;    // [first, first + |firstLength|], metres
     float second, secondLength;  // likewise; second 0: none
-    float steepest;              // largest slope along the view axis between two samples that are on the first layer's surface
+    float steepest;              // of the first: largest change of depth per metre across the view to another sample on its surface, where
+                                 // the metre is one at that sample's depth
 };
 Layers unpackLayers(uvec4 texel) {
     vec2 halves = unpackHalf2x16(texel.y);

@@ -1,7 +1,7 @@
 // Gather of interleaved shares over side x side neighbours. For an even side the window is one pixel wider and its outer rows have half
 // weight, so that all shares weigh the same and no tile pattern is left. Neighbours are weighted by their distance to this pixel's tangent
-// plane. Blocked and whole integrals are averaged separately, so that an edge that excludes some slices adds no bias. With a map, map pixels
-// gather first; image pixels then gather from the four map pixels around them, which is bilinear along a surface.
+// plane. Blocked and whole integrals are averaged separately, so that an edge that excludes some slices adds no bias. With a map, map
+// pixels gather first; image pixels then gather from the four map pixels around them, which is bilinear along a surface.
 // In: linear depth, packed normals; shares of the image's or the map's pixels. Out: visibility, or with TO_MAP gathered shares.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
-// Segments of occlusion around each pixel: in each slice every sample covers the angles between the front and the back of what it hits, each
-// bit once, with the falloff at its nearest point. Formulas: runtime/ao/methods/layered/layered.cpp.
+// Segments of occlusion around each pixel: in each slice every sample covers the angles between the front and the back of what it hits,
+// each bit once, with the falloff at its nearest point. Formulas: runtime/ao/methods/layered/layered.cpp.
 // In: normals and packed layers (one per texel; TWO_LAYERS: two; NO_LAYERS: depth, with an assumed thickness), guard band included.
 // Out: shares (shares.glsl) of each image pixel or map pixel.
 #version 460
@@ -76,7 +76,7 @@ void main() {
         vec3 od = tangent * cos(turn) + across * sin(turn);
         vec2 step = (od.xy * perMetre + (orthographic ? vec2(0.0) : position.xy * od.z)) * view.project.xy;
         step *= inversesqrt(max(dot(step, step), 1e-20));
-        Receiver receiver = receiverOf(view, pixel, v, n, od);
+        Receiver receiver = receiverOf(view, pixel, z, v, n, od, step);
         float nv = dot(n, v), no = dot(n, od), angle = atan(no, nv), sine = no * inversesqrt(max(no * no + nv * nv, 1e-12));
         // Distances to the buffers' edges along the step and against it, px.
         vec2 inverse = 1.0 / max(abs(step), vec2(1e-6)), low = (pixel - 0.5) * inverse, high = (vec2(view.size) - 0.5 - pixel) * inverse;

@@ -10,7 +10,8 @@ const float kPi = 3.14159265;
 const float kAbove = 0.002;  // least sine of a sample above the tangent plane
 const float kPlate = 0.65;    // part of its stratum that a sample stands for, to each end
 
-const float kJoin = 1.0;     // least slope up to which a sample and the one before are taken to be on one surface
+const float kOffSlice = 0.7;  // px, most that the centre of a sample's pixel is off the slice
+const float kJoin = 1.0;     // least change of depth per metre across up to which a sample and the one before are on one surface
 
 // The pixel as its samples see it. A sample d pixels away, with depth F, is at F (d.x, d.y, 0) + (F - D) ray from a receiver of depth D, in
 // units of unproject; so dot products with v, od and n are linear in d, F and F - D.
@@ -19,8 +20,10 @@ struct Receiver {
     float rayV, rayN;   // of the receiver's view ray, per metre of depth
     float inverseV;     // depth per metre towards the eye
     float perspective;  // 1, or 0 if orthographic
+    float depth;
+    float perPixel;     // metres across the view of a pixel of the slice, per metre of depth
 };
-Receiver receiverOf(View view, vec2 pixel, vec3 v, vec3 n, vec3 od) {
+Receiver receiverOf(View view, vec2 pixel, float depth, vec3 v, vec3 n, vec3 od, vec2 step) {
     Receiver r;
     r.perspective = view.orthographic > 0.5 ? 0.0 : 1.0;
     vec3 ray = vec3((pixel * view.unproject.xy + view.unproject.zw) * r.perspective, -1.0);
@@ -30,6 +33,8 @@ Receiver receiverOf(View view, vec2 pixel, vec3 v, vec3 n, vec3 od) {
     r.rayV = dot(ray, v);
     r.rayN = dot(ray, n);
     r.inverseV = -1.0 / r.rayV;
+    r.depth = depth;
+    r.perPixel = length(step * view.unproject.xy);
     return r;
 }
 struct Aside {
@@ -37,13 +42,14 @@ struct Aside {
 };
 Aside asideOf(Receiver r, vec2 pixels, float sign) { return Aside(dot(pixels, r.v), sign * dot(pixels, r.od), dot(pixels, r.n)); }
 
-// Squared factors on b at the ends of the plate that a sample stands for. l, start, end: of the sample and its stratum, px.
+// A sample's distance in the image, and the squared factors on b at the ends of the plate that it stands for. l, start, end: of the sample
+// and its stratum, px.
 struct Plate {
-    float inner, outer;
+    float at, inner, outer;
 };
 Plate plateOf(float l, float start, float end) {
     float inner = mix(1.0, min(start / l, 1.0), kPlate), outer = mix(1.0, max(end / l, 1.0), kPlate);
-    return Plate(inner * inner, outer * outer);
+    return Plate(l, inner * inner, outer * outer);
 }
 
 // Integrals are in 32nds of the side's. The integral up to cosine c is full - squareWeight c^2 - arcWeight c arcFactor(c^2).
@@ -52,9 +58,9 @@ struct Side {
     float least;     // cosine at the hemisphere's edge
     uint covered;    // a bit for each 32nd
     float blocked;   // 32nds
-    float a, b;     // of the sample before
-    float place;
-    float distance;
+    float f, at;     // of the sample before: depth relative to the receiver, distance in the image, px; at first, of the receiver
+    float place;     // of its front, 32nds
+    float distance;  // metres
 };
 Side sideOf(float nv, float no, float least, float whole) {
     float scale = 16.0 / max(whole, 1e-6);
@@ -67,8 +73,8 @@ float placeOf(Side side, float a, float b2) {
     return side.full - side.squareWeight * c2 - side.arcWeight * c * arcFactor(c2);
 }
 
-// Covers what a layer of a sample hides: the plate from its front to its back and, if the slope to the sample before allows that both are on
-// one surface, the gap between them. f: depth relative to the receiver. first: the layer nearest the eye.
+// Covers what a layer of a sample hides: the plate from its front to its back and, if the sample before can be on the same surface, the gap
+// between them. f: depth relative to the receiver. first: the layer nearest the eye.
 void cover(inout Side side, Receiver r, FalloffBlock rho, Plate plate, Aside aside, float depth, float f, float size, float steepest,
     bool counts, bool first) {
     float metres = r.perspective > 0.5 ? depth : 1.0, towardsV = aside.v * r.perspective + r.rayV, towardsOd = aside.od * r.perspective;
@@ -79,10 +85,11 @@ void cover(inout Side side, Receiver r, FalloffBlock rho, Plate plate, Aside asi
     float nearest = clamp(a * r.inverseV, 0.0, max(size, 0.0));  // a receiver behind a solid faces its back
     float nearA = a + nearest * towardsV, nearB = b + nearest * towardsOd, distance = sqrt(nearA * nearA + nearB * nearB);
     if (first) {
-        bool joined = abs(a - side.a) < max(steepest, kJoin) * abs(b - side.b);
+        float across = (plate.at - side.at + kOffSlice) * r.perPixel * (r.perspective > 0.5 ? r.depth + side.f : 1.0);
+        bool joined = abs(f - side.f) < max(steepest, kJoin) * across;
         Side before = side;
-        side.a = a;
-        side.b = b;
+        side.f = f;
+        side.at = plate.at;
         side.place = from;
         side.distance = distance;
         from = joined ? min(from, before.place) : from;

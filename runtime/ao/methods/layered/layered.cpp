@@ -1,8 +1,8 @@
 // Layered obscurance, this project's method: depth layers and a segment bitmask. A depth buffer has the fronts of objects; here their backs
 // are rendered too, so thickness is known. N slices of the hemisphere contain the pixel's view ray, evenly spaced in azimuth. On each side
 // of a slice there are M samples, each for one stratum of the distance out to the falloff's reach. A sample's texel holds one or two layers
-// [front, back] along its view ray, which cover the angles from front to back. Each 32nd of the side's integral is covered at most once, with
-// the falloff at the nearest point of the layer that covers it first:
+// [front, back] along its view ray, which cover the angles from front to back. Each 32nd of the side's integral is covered at most once,
+// with the falloff at the nearest point of the layer that covers it first:
 //     A = 1/N sum over slices and sides of whole/32 * sum over samples of rho * (bits newly covered)
 // Bits have equal cosine-weighted solid angle. With a the angle from the view ray v, od the slice's direction across it and c = cos a, the
 // integral up to a is
@@ -10,11 +10,11 @@
 // as in GTAO's closed form [Jimenez 2016, eq. 7], but as a function of c, so that no arc cosine is needed: a - c sqrt(1 - c^2) =
 // pi/2 - (asin c + c sqrt(1 - c^2)), and the bracket is a polynomial in c to 0.007.
 //
-// What lies between samples is covered in two ways. A sample stands for 0.6 of its stratum to each end, as a plate parallel to the image: an
-// object narrower than its stratum is rarely hit, and a hit makes up for the misses. And where the slope from the sample before is at most
-// 4, or that of a surface seen at a grazing angle, both are taken to be one surface; the angles between their fronts are covered too, and the
-// falloff is evaluated at the mean of their distances. Without plates occlusion is too weak by 0.02 in a scene like Sponza, without joining by
-// 0.01.
+// What lies between samples is covered in two ways. A sample stands for 0.65 of its stratum to each end, as a plate parallel to the image:
+// an object narrower than its stratum is rarely hit, and a hit makes up for the misses. And a sample and the one before are joined where they
+// can be on one surface: where depth changes by less than the sample's tangent plane allows, or by less than the distance across the view.
+// The angles between their fronts are covered too, and the falloff is evaluated at the mean of their distances. Without plates occlusion is
+// too weak by 0.02 in a scene like Sponza, without joining by 0.01.
 //
 // The falloff's distance is that to the nearest point of a solid (a receiver behind it faces its back), and to the front of open sheets and
 // endless layers. Without depth layers everything has an assumed thickness. A second layer of half size is assigned to whole pixels when
