@@ -11,10 +11,10 @@
 // pi/2 - (asin c + c sqrt(1 - c^2)), and the bracket is a polynomial in c to 0.007.
 //
 // What lies between samples is covered in two ways. A sample stands for 0.65 of its stratum to each end, as a plate parallel to the image:
-// an object narrower than its stratum is rarely hit, and a hit makes up for the misses. And a sample and the one before are joined where they
-// can be on one surface: where depth changes by less than the sample's tangent plane allows, or by less than the distance across the view.
-// The angles between their fronts are covered too, and the falloff is evaluated at the mean of their distances. Without plates occlusion is
-// too weak by 0.02 in a scene like Sponza, without joining by 0.01.
+// an object narrower than its stratum is rarely hit, and a hit makes up for the misses. And a sample and the one before are joined where
+// they can be on one surface: where depth changes by less than the sample's tangent plane allows, or by less than the distance across the
+// view. The angles between their fronts are covered too, and the falloff is evaluated at the mean of their distances. Without plates
+// occlusion is too weak by 0.02 in a scene like Sponza, without joining by 0.01.
 //
 // The falloff's distance is that to the nearest point of a solid (a receiver behind it faces its back), and to the front of open sheets and
 // endless layers. Without depth layers everything has an assumed thickness. A second layer of half size is assigned to whole pixels when
@@ -47,21 +47,22 @@ const Parameter kParameters[] = {
     {"max_pixels", "px", 8, 4096, 4096, false, {},
         "Longest reach on the screen. Shorter is faster close to surfaces, where samples are otherwise far apart in memory. Too short: "
         "wide occlusion is lost close up."},
-    {"map", "px", 1, 3, 2, true, {},
+    {"map", "px", 1, 3, 1, true, {},
         "Image pixels per pixel of the map, each way. 2 costs a quarter of 1 and gathers over twice the width. Too high: small objects "
         "lose their occlusion."},
     {kInterleave.id, "", 0, 3, 1, true, {kInterleaves, 4}, kInterleave.sentence},
 };
 const Setting kLow[] = {{"steps", 9}, {"map", 3}};
-const Setting kMedium[] = {{"slices", 4}, {"steps", 14}};
-const Setting kUltra[] = {{"steps", 22}, {"depth_layers", float(LayerMode::second)}};
-const Setting kReference[] = {{"slices", 16}, {"steps", 32}, {"depth_layers", float(LayerMode::second)}, {"map", 1}, {"interleave", 0}};
+const Setting kMedium[] = {{"slices", 4}, {"steps", 14}, {"map", 2}};
+const Setting kHigh[] = {{"map", 2}};
+const Setting kUltra[] = {{"steps", 22}, {"depth_layers", float(LayerMode::second)}, {"map", 2}};
+const Setting kReference[] = {{"slices", 16}, {"steps", 32}, {"depth_layers", float(LayerMode::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
-    {"default", "48 samples per 2x2 pixels, thickness: one more geometry pass. The same as high.", {}},
-    {"low", "36 samples per 3x3 pixels, thickness. Like the presets below, no dearer on a GPU than XeGTAO's of that name.",
+    {"default", "48 samples per pixel, thickness: one more geometry pass. The calmest.", {}},
+    {"low", "36 samples per 3x3 pixels, thickness. No dearer on a GPU than XeGTAO's preset of that name, as the three below.",
         {kLow, std::size(kLow)}},
     {"medium", "28 samples per 2x2 pixels, thickness.", {kMedium, std::size(kMedium)}},
-    {"high", "48 samples per 2x2 pixels, thickness.", {}},
+    {"high", "48 samples per 2x2 pixels, thickness.", {kHigh, std::size(kHigh)}},
     {"ultra", "88 samples per 2x2 pixels, thickness and a second surface.", {kUltra, std::size(kUltra)}},
     {"reference", "1024 samples per pixel, not interleaved: the limit of what the depth layers can give.",
         {kReference, std::size(kReference)}},
