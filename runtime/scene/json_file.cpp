@@ -26,6 +26,12 @@ glm::vec3 vector3(const JsonAt& at) {
     return {at.at(size_t(0)).number(), at.at(1).number(), at.at(2).number()};
 }
 
+// The lenses of files may be narrower than a game's; beyond 170 degrees a picture is all edge.
+float fieldOfView(const JsonAt& at) {
+    constexpr double kNarrowest = 1e-3, kWidest = 170.0;
+    return float(glm::radians(at.number(kNarrowest, kWidest)));
+}
+
 std::vector<std::string> texts(const JsonAt& at) {
     std::vector<std::string> list;
     at.expectArray();

@@ -22,6 +22,7 @@ private:
 };
 
 glm::vec3 vector3(const JsonAt& at);
+float fieldOfView(const JsonAt& at);               // degrees in the file, radians here
 std::vector<std::string> texts(const JsonAt& at);  // an array of strings, not empty
 
 }  // namespace obscura::scene

@@ -1,0 +1,20 @@
+// Text of JSON and of names: always UTF-8.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace obscura::scene {
+
+// A JSON value as text; indent -1: on one line. Bytes that are not UTF-8, which names of files may have, become U+FFFD.
+template <class Json>
+std::string dump(const Json& json, int indent = -1) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+// A name for reports: bytes that are not UTF-8 become U+FFFD.
+inline std::string utf8(std::string_view name) { return nlohmann::json::parse(dump(nlohmann::json(name))).get<std::string>(); }
+
+}  // namespace obscura::scene
