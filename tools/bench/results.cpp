@@ -7,6 +7,7 @@
 
 #include "app/complaint.h"
 #include "app/statistics.h"
+#include "scene/json_text.h"
 
 namespace obscura::bench {
 
@@ -79,7 +80,7 @@ std::string jsonText(const Results& results) {
         {"flickerSize", {results.flickerWidth, results.flickerHeight}}, {"gpu", results.gpu}, {"gpuCompiler", results.gpuCompiler},
         {"rows", Json::array()}};
     for (const Row& row : results.rows) json["rows"].push_back(toJson(row));
-    return json.dump(1) + "\n";
+    return scene::dump(json, 1) + "\n";
 }
 
 Results readResults(const std::filesystem::path& file) {
