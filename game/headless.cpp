@@ -63,8 +63,8 @@ int reportValidation(const Options& options, Engine& engine) {
 
 int runHeadless(const Options& options) {
     // Outputs, scene and camera are checked before the slow start-up.
+    if (!options.out.empty()) app::expectFolder(options.out);  // may hold the screenshot
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
-    if (!options.out.empty()) app::expectFolder(options.out);
     Stage stage(options.scene, options.bare, options.animation);
     stage.camera(options.camera, options.time);
     const bool replay = options.camera.replay;

@@ -165,6 +165,7 @@ void Game::run() {
 }  // namespace
 
 int playWindowed(const Options& options) {
+    if (!options.out.empty()) app::expectFolder(options.out);
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
     std::string error;
     auto window = app::Window::open("Obscura", int(options.size.width), int(options.size.height), error);

@@ -9,6 +9,7 @@
 #include "app/complaint.h"
 #include "app/content.h"
 #include "scene/hash.h"
+#include "scene/json_text.h"
 
 namespace obscura::tune {
 
@@ -20,7 +21,7 @@ Place placeOf(const std::string& text, const char* option) {
             fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough, or FILE.json@SECONDS", option, text));
     if (text.find(".json@") != std::string::npos) {
         flythrough::findScript(text);
-        return {text, text};
+        return {text, scene::utf8(text)};
     }
     const app::SceneFile file = app::expectScene(text.substr(0, mark));
     if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.info.name));
