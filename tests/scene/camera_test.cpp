@@ -155,6 +155,8 @@ TEST_F(CameraFile, Camera) {
     EXPECT_TRUE(contains(errorOf(R"({"eye":[1,2,3],"target":[0,0,0],"fov":90})", loadCamera), "unknown field \"fov\""));
     EXPECT_TRUE(contains(errorOf(R"({"eye":[1,2],"target":[0,0,0]})", loadCamera), "/eye: must have 3 numbers"));
     EXPECT_TRUE(contains(errorOf("{", loadCamera), m_file.string()));
+    // So far that a float's squares overflow.
+    EXPECT_TRUE(contains(errorOf(R"({"eye":[1e30,2,3],"target":[0,0,0]})", loadCamera), "/eye/0: 1e+30 is out of range"));
 }
 
 constexpr const char* kPath = R"({"name":"round","scene":"toasters","duration":8,"loop":true,
@@ -240,6 +242,8 @@ TEST_F(CameraFile, PathErrorsNameTheField) {
     EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"),
         "a loop's last key"));
     EXPECT_TRUE(contains(pathError("[]"), "must be an object"));
+    EXPECT_TRUE(
+        contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,1e30,1]}]})"), "/keys/0/target/1: 1e+30 is out of range"));
 }
 
 }  // namespace
