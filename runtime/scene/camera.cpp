@@ -18,7 +18,10 @@ glm::mat4 Camera::view() const {
     glm::vec3 above = up;
     if (!(glm::length(glm::cross(forward, above)) > 1e-6f * glm::length(above)))
         above = std::abs(forward.z) < 0.9f ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
-    return glm::lookAt(eye, eye + forward, above);
+    // Turned first, since eye + forward has no direction where a float's step is a metre.
+    glm::mat4 view = glm::lookAt(glm::vec3(0.0f), forward, above);
+    view[3] = glm::vec4(-(glm::mat3(view) * eye), 1.0f);
+    return view;
 }
 
 glm::mat4 Camera::projection(glm::vec2 size, glm::vec2 visible) const {

@@ -62,6 +62,19 @@ TEST(Camera, ViewLooksDownMinusZ) {
     EXPECT_NEAR((down * glm::vec4(1, -5, 3, 1)).z, -7.0f, 1e-5);
 }
 
+// Where a float's step is 4 m, or 0.1 m.
+TEST(Camera, ViewFromAfarKeepsItsDirection) {
+    Camera camera;
+    camera.eye = {1, 33554432, 3};
+    camera.target = {0, 0, 0};
+    const glm::mat4 down = camera.view();
+    EXPECT_NEAR(glm::determinant(glm::mat3(down)), 1.0f, 1e-5);
+    camera.eye = {1e6f, 1e6f, 1e6f};
+    camera.target = camera.eye + glm::vec3(3, 1, -2);
+    const glm::vec3 ahead = glm::mat3(camera.view()) * glm::normalize(glm::vec3(3, 1, -2));
+    EXPECT_NEAR(glm::length(ahead - glm::vec3(0, 0, -1)), 0.0f, 1e-6f);
+}
+
 TEST(Camera, FrameSeesTheBounds) {
     Bounds box;
     box.add({-1, 0, -2});

@@ -89,16 +89,19 @@ std::optional<Chunk> readChunk(const std::filesystem::path& file) {
         chunk.settings = json.at("settings");
         chunk.filter = json.at("filter");
         chunk.falloff = json.at("falloff");
-        chunk.width = json.at("width");
-        chunk.height = json.at("height");
-        chunk.rays = json.at("rays");
-        chunk.first = json.at("first");
-        chunk.end = json.at("end");
+        chunk.width = scene::count(json.at("width"));
+        chunk.height = scene::count(json.at("height"));
+        chunk.rays = scene::count(json.at("rays"));
+        chunk.first = scene::count(json.at("first"));
+        chunk.end = scene::count(json.at("end"));
         chunk.pictures = json.at("pictures");
         for (const Json& r : json.at("frames"))
-            if (r.size() == 2) chunk.frames.push_back({.frame = r.at(0), .time = r.at(1), .empty = true});
-            else chunk.frames.push_back({r.at(0), r.at(1), r.at(2), r.at(3), r.at(4), r.at(5), r.at(6), r.at(7), r.at(8), r.at(9)});
-        for (const Json& r : json.at("events")) chunk.events.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
+            if (r.size() == 2) chunk.frames.push_back({.frame = scene::count(r.at(0)), .time = r.at(1), .empty = true});
+            else
+                chunk.frames.push_back(
+                    {scene::count(r.at(0)), r.at(1), r.at(2), r.at(3), r.at(4), r.at(5), r.at(6), r.at(7), r.at(8), r.at(9)});
+        for (const Json& r : json.at("events"))
+            chunk.events.push_back({scene::count(r.at(0)), scene::count(r.at(1)), scene::count(r.at(2)), r.at(3)});
         if (json.contains("static")) chunk.still = StaticRow{json["static"].at(0), json["static"].at(1)};
         for (const Json& r : json.at("passes")) chunk.passes.push_back({r.at(0), r.at(1), r.at(2)});
         return chunk;
