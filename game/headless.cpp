@@ -1,9 +1,12 @@
 // Rendering without a window: pictures, times and a summary.
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "ao/view.h"
 #include "app/complaint.h"
 #include "app/files.h"
 #include "app/progress.h"
@@ -29,6 +32,16 @@ std::vector<uint32_t> reportFrames(uint32_t frames) {
     return list;
 }
 
+// A depth of render::Outputs::linearDepth is not sky.
+bool hasSurface(std::span<const std::byte> depths) {
+    for (size_t at = 0; at + sizeof(float) <= depths.size(); at += sizeof(float)) {
+        float depth;
+        std::memcpy(&depth, depths.data() + at, sizeof depth);
+        if (depth < ao::kSkyDepth) return true;
+    }
+    return false;
+}
+
 void expectPass(const Options& options, const graph::Graph& graph) {
     if (options.view != render::View::pass) return;
     std::vector<std::string> names;
@@ -50,9 +63,9 @@ int reportValidation(const Options& options, Engine& engine) {
 
 int runHeadless(const Options& options) {
     // Outputs, scene and camera are checked before the slow start-up.
+    if (!options.out.empty()) app::expectFolder(options.out);  // may hold the screenshot
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
-    if (!options.out.empty()) app::expectFolder(options.out);
-    Stage stage(options.scene, options.bare);
+    Stage stage(options.scene, options.bare, options.animation);
     stage.camera(options.camera, options.time);
     const bool replay = options.camera.replay;
     const float start = replay ? options.camera.start.value_or(stage.pathOf(options.camera.file).keys.front().time) : options.time;
@@ -78,6 +91,7 @@ int runHeadless(const Options& options) {
     const std::vector<uint32_t> shown = options.out.empty() ? std::vector<uint32_t>() : reportFrames(frames);
     for (const uint32_t frame : shown) report.pictures.push_back({frame, timeAt(frame), {}, {}});
 
+    bool showsSurface = true;  // the first frame
     const auto measures = options.measure ? std::make_shared<Measures>(0) : nullptr;
     graph::Graph& graph = engine.graph();
     {
@@ -110,7 +124,12 @@ int runHeadless(const Options& options) {
             frame.sampleStep = measures ? measuredStep(options.size) : 0;
             frame.slice = options.slice;
             const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
-            if (i == 0) expectPass(options, graph);
+            if (i == 0) {
+                expectPass(options, graph);
+                engine.expect(engine.capture().addRaw(graph, outputs.linearDepth,
+                                  [&](std::span<const std::byte> depths) { showsSurface = hasSurface(depths); }),
+                    "reading depth back");
+            }
             if (measures)
                 engine.expect(
                     readInto(measures, engine.capture(), graph, outputs, measuredFrame(frame, stage.world, i)), "reading samples back");
@@ -145,6 +164,8 @@ int runHeadless(const Options& options) {
             engine.expect(engine.frames().end(graph), "finishing");
         }
     }
+    if (!showsSurface)
+        fmt::print(stderr, "obscura: the first frame shows only sky; choose another view with --camera, or --eye and --target\n");
     if (measures) measures->finish();
     if (measures && !options.out.empty()) app::writeFile(options.out / "measures.csv", csv(measures->all()));
     if (!options.out.empty()) {

@@ -12,6 +12,7 @@ int runHeadless(const Options& options);
 int runWithoutWindow(const Options& options, const std::string& why);
 int listMethods(bool json);
 int listScenes();
+int listScene(const std::string& scene);
 int listDevices();
 
 // Runs each method for a number of frames, then switches methods at every frame; prints the longest frame at a switch and the median.

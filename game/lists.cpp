@@ -7,6 +7,7 @@
 
 #include "app/complaint.h"
 #include "jobs.h"
+#include "scene/json_text.h"
 
 namespace obscura::game {
 
@@ -47,7 +48,7 @@ int listMethods(bool json) {
     if (json) {
         Json list = Json::array();
         for (const ao::MethodInfo* info : ao::methods()) list.push_back(jsonOf(*info));
-        std::puts(list.dump(2).c_str());
+        std::puts(scene::dump(list, 2).c_str());
         return 0;
     }
     for (const ao::MethodInfo* info : ao::methods()) {
@@ -68,6 +69,11 @@ int listMethods(bool json) {
 
 int listScenes() {
     fmt::print("{}", sceneList());
+    return 0;
+}
+
+int listScene(const std::string& scene) {
+    fmt::print("{}", app::contentList(*scene::loadGltf(app::expectScene(scene).file, {.loadImages = false})));
     return 0;
 }
 

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
         switch (options->job) {
             case game::Job::listMethods: return game::listMethods(options->json);
             case game::Job::listScenes: return game::listScenes();
+            case game::Job::listScene: return game::listScene(options->scene);
             case game::Job::listDevices: return game::listDevices();
             case game::Job::headless: return game::runHeadless(*options);
             case game::Job::play: return game::playWindowed(*options);

@@ -14,10 +14,6 @@ constexpr uint32_t kMaxPixels = 256 * 256;
 constexpr uint32_t kLargestStep = 31;
 constexpr size_t kKeptReadings = 600;
 
-bool sameCamera(const scene::Camera& a, const scene::Camera& b) {
-    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY && a.orthoHalfHeight == b.orthoHalfHeight;
-}
-
 bool sameWorld(const Measures::Frame& a, const Measures::Frame& b) {
     return a.animated == b.animated && a.instances == b.instances && (!a.animated || a.time == b.time);
 }
@@ -150,8 +146,7 @@ Measures::Reading Measures::measure(const Job& job, Previous& previous) const {
     const bool follows = previous.frame && !frame.cut && previous.frame->number + 1 == frame.number &&
                          previous.decoded.captured.size == decoded.captured.size && previous.frame->sides.size() == frame.sides.size();
     const bool unchanged = follows && previous.frame->sides == frame.sides && previous.frame->falloff == frame.falloff;
-    previous.still =
-        unchanged && sameWorld(frame, *previous.frame) && sameCamera(frame.camera, previous.frame->camera) ? previous.still + 1 : 0;
+    previous.still = unchanged && sameWorld(frame, *previous.frame) && frame.camera == previous.frame->camera ? previous.still + 1 : 0;
     if (previous.still <= kSettling) previous.noise.assign(frame.sides.size(), {});
     reading.settling = std::min(previous.still, kSettling);
 

@@ -77,7 +77,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     std::string method, preset, resolve, offscreen, falloff, compare, view = "final", slice, size, camera, path, eye, target;
     std::vector<std::string> assignments;
-    bool headless = false, listMethods = false, listScenes = false, listDevices = false, flythrough = false, noVsync = false;
+    bool headless = false, listMethods = false, listScenes = false, listScene = false, listDevices = false, flythrough = false,
+         noVsync = false;
     uint32_t frames = 1, switchTest = 0;
     float fov = 60.0f;
 
@@ -109,6 +110,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--difference-range", options.differenceRange, "Difference of visibility at which the difference views saturate")
         ->group(kPicture)
         ->check(CLI::Range(0.001f, 1.0f))
+        ->capture_default_str();
+    cli.add_option("--animation", options.animation, "Animation of the scene: NAME or number, all together, or none (--list-scene)")
+        ->group(kPicture)
         ->capture_default_str();
     auto* timeOption =
         cli.add_option("--time", options.time, "Seconds into the animation at the first frame")->group(kPicture)->capture_default_str();
@@ -164,7 +168,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->capture_default_str();
     cli.add_option("--size", size, "WIDTHxHEIGHT of the picture or window, pixels (1280x720)")->group(kRun);
     cli.add_option("--screenshot", options.screenshot, "PNG of the last frame")->group(kRun);
-    cli.add_option("--out", options.out, "Folder for every frame as PNG, summary.html and timings.json")->group(kRun);
+    cli.add_option("--out", options.out,
+           "Folder for every frame as PNG, summary.html and timings.json, and all files that are named without a folder")
+        ->group(kRun);
     cli.add_flag("--measure", options.measure,
            "Measure noise and flicker, and errors where obscura-flythrough has cached a frame's reference; --out: measures.csv")
         ->group(kRun);
@@ -194,12 +200,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     auto* methodsFlag = cli.add_flag("--list-methods", listMethods, "Print every method with its parameters and presets")->group(kLists);
     cli.add_flag("--json", options.json, "Print the list of methods as JSON")->group(kLists)->needs(methodsFlag);
     cli.add_flag("--list-scenes", listScenes, "Print the named scenes and their files")->group(kLists);
+    cli.add_flag("--list-scene", listScene, "Print the cameras, animations, variants and extensions of --scene")->group(kLists);
     cli.add_flag("--list-devices", listDevices, "Print the Vulkan devices")->group(kLists);
 
     if (!app::parse(cli, argc, argv)) return std::nullopt;
 
     if (listMethods) options.job = Job::listMethods;
     else if (listScenes) options.job = Job::listScenes;
+    else if (listScene) options.job = Job::listScene;
     else if (listDevices) options.job = Job::listDevices;
     else if (headless) options.job = Job::headless;
     if (!std::isfinite(options.time)) throw Complaint("--time: must be a finite number of seconds");
@@ -207,6 +215,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         const glm::uvec2 wanted = app::sizeOf(size);
         options.size = {wanted.x, wanted.y};
     }
+    if (!options.screenshot.empty() && !options.screenshot.has_parent_path()) options.screenshot = options.out / options.screenshot;
     if (*framesOption) options.frames = frames;
     if (*switchOption) options.switchTest = switchTest;
     options.vsync = !noVsync;

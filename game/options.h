@@ -14,7 +14,7 @@
 
 namespace obscura::game {
 
-enum class Job { play, headless, listMethods, listScenes, listDevices };
+enum class Job { play, headless, listMethods, listScenes, listScene, listDevices };
 
 // Source of the camera.
 struct CameraChoice {
@@ -32,6 +32,7 @@ struct Options {
     Job job = Job::play;
     bool json = false;
     std::string scene = "atrium";
+    std::string animation = "all";
     std::string device;
     std::string validation = "off";
     std::string pipelineCache;  // empty: the user's cache folder

@@ -157,6 +157,25 @@ void voxelPanel(Session& session) {
     tip("Cells per side of the voxel cube around the camera. Memory grows with its cube; at few cells distant occluders are missing.");
 }
 
+// What of the scene's animations plays.
+void animationMenu(scene::Instance& scene) {
+    const std::vector<scene::Animation>& list = scene.model->animations;
+    if (list.size() < 2) return;
+    const auto nameOf = [&](int i) {
+        if (i < 0) return std::string(i == scene::kRestPose ? "none" : "all");
+        return list[size_t(i)].name.empty() ? fmt::format("animation {}", i) : list[size_t(i)].name;
+    };
+    if (ImGui::BeginCombo("animation", nameOf(scene.animation).c_str())) {
+        for (int i = scene::kAllAnimations; i < int(list.size()); ++i) {
+            ImGui::PushID(i);
+            if (ImGui::Selectable(nameOf(i).c_str(), i == scene.animation)) scene.animation = i;
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+    tip("all: those that move different nodes play together. none: the rest pose.");
+}
+
 void timePanel(Session& session) {
     if (ImGui::Button(session.paused ? "Resume" : "Pause")) session.act(Action::pause, 0);
     ImGui::SameLine();
@@ -172,6 +191,7 @@ void timePanel(Session& session) {
     float shown = std::fmod(session.time, end);
     if (ImGui::SliderFloat("time [s]", &shown, 0.0f, end, "%.2f")) session.scrub(shown);
     tip("World time; drag to scrub. Animations and flythrough restart at the end.");
+    animationMenu(session.stage.world.instances().front());
     ImGui::SliderFloat("time scale", &session.pace, 0.125f, 8.0f, "x %.3g", ImGuiSliderFlags_Logarithmic);
     if (ImGui::Button(session.recorder.running() ? "Stop recording" : "Record")) session.act(Action::record, 0);
     tip("Writes the camera path to a file in the current folder.");

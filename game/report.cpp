@@ -7,6 +7,7 @@
 
 #include "ao/settings_text.h"
 #include "app/files.h"
+#include "scene/json_text.h"
 
 namespace obscura::game {
 
@@ -14,7 +15,7 @@ namespace {
 
 std::string escape(const std::string& text) {
     std::string out;
-    for (const char c : text) {
+    for (const char c : scene::utf8(text)) {
         if (c == '<') out += "&lt;";
         else if (c == '>') out += "&gt;";
         else if (c == '&') out += "&amp;";
@@ -141,7 +142,7 @@ void Report::write(const std::filesystem::path& folder) const {
     if (options.compare)
         timings["compare"] = {
             {"method", options.compare->info().id}, {"parameters", parametersOf(options.compare->values())}, {"split", options.split}};
-    app::writeFile(folder / "timings.json", timings.dump(2) + "\n");
+    app::writeFile(folder / "timings.json", scene::dump(timings, 2) + "\n");
 
     std::string page = fmt::format(
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Obscura: {0}, {1}</title><style>{2}</style>\n<h1>{0}, {3}</h1>\n",

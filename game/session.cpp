@@ -143,7 +143,7 @@ void Session::startReplay() {
 void Session::stopRecording() {
     const scene::CameraPath path = recorder.finish();
     if (path.keys.empty()) return say("nothing was recorded");
-    const std::filesystem::path file = app::freshName("obscura", ".path.json");
+    const std::filesystem::path file = app::freshName((options.out / "obscura").string(), ".path.json");
     try {
         path.save(file);
         replayFile = file;

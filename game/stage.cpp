@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/complaint.h"
+#include "scene/json_text.h"
 
 namespace obscura::game {
 
@@ -37,62 +38,30 @@ int walkerOf(const scene::Model& model, int root) {
     return root;
 }
 
-scene::CameraPath orbit(const scene::Bounds& bounds) {
-    const scene::Camera first = scene::frame(bounds);
-    const glm::vec3 arm = first.eye - first.target;
-    scene::CameraPath path;
-    path.name = "orbit";
-    constexpr int kKeys = 12;
-    path.duration = 24.0f;
-    for (int i = 0; i < kKeys; ++i) {
-        const float turn = glm::radians(360.0f * float(i) / kKeys);
-        const glm::vec3 turned(arm.x * std::cos(turn) + arm.z * std::sin(turn), arm.y, arm.z * std::cos(turn) - arm.x * std::sin(turn));
-        path.keys.push_back({path.duration * float(i) / kKeys, first.target + turned, first.target, first.fovY});
-    }
-    return path;
-}
-
 }  // namespace
 
-Stage::Stage(const std::string& scene, bool bare) {
+Stage::Stage(const std::string& scene, bool bare, const std::string& animation) {
     const auto begun = std::chrono::steady_clock::now();
     const app::SceneFile found = app::findScene(scene);
-    found.named ? loadNamed(found, bare) : loadFile(found.file);
-    loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
-
-void Stage::loadNamed(const app::SceneFile& named, bool bare) {
-    info = named.info;
+    info = found.info;
+    if (found.file.empty()) throw Complaint(fmt::format("--scene {}: {} is missing; {}", info.name, info.files.front(), info.howToGet));
+    file = found.file.string();
+    app::PlacedScene placed = app::loadScene(found, animation);
+    bounds = placed.bounds;
+    world.add(std::move(placed.instance));
+    remarks = std::move(placed.remarks);
     if (bare) info.toys.clear();
-    if (named.file.empty()) throw Complaint(fmt::format("--scene {}: {} is missing; {}", info.name, info.files.front(), info.howToGet));
-    file = named.file.string();
-    world.add({.model = scene::loadGltf(named.file)});
+    if (!found.named) describe();
     loadToys(!info.toys.empty());
     for (const app::ToyGroup& group : info.toys) placeGroup(group);
     bounds = scene::bounds(world, 0.0f);
-    if (named.flythrough) path = scene::loadCameraPath(*named.flythrough);
-    else path = orbit(bounds);
+    path = found.flythrough ? scene::loadCameraPath(*found.flythrough) : scene::orbit(bounds);
+    loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
-void Stage::loadFile(const fs::path& path_) {
-    file = path_.string();
-    auto model = scene::loadGltf(path_);
-    for (const std::string& warning : model->warnings) remarks.push_back(warning);
-    info.name = model->name;
-    info.title = path_.filename().string();
-    world.add({.model = std::move(model)});
-    bounds = scene::bounds(world, 0.0f);
-    if (bounds.empty) throw Complaint(fmt::format("--scene {}: contains nothing to draw; it needs at least one triangle", path_.string()));
-    // glTF lengths are metres. Files in other units are scaled by powers of ten until the radius is plausible.
-    constexpr float kLargest = 120.0f, kSmallest = 0.25f;
-    float scale = 1.0f;
-    while (bounds.radius() * scale > kLargest) scale *= 0.1f;
-    while (bounds.radius() * scale < kSmallest && bounds.radius() > 0.0f && scale < 1e9f) scale *= 10.0f;
-    if (scale != 1.0f) {
-        remarks.push_back(fmt::format("{}: {:g} m across, shown at {:g} times its size", file, 2.0f * bounds.radius(), scale));
-        world.instances().front().placement = glm::scale(glm::mat4(1.0f), glm::vec3(scale));
-        bounds = scene::bounds(world, 0.0f);
-    }
+// The entry that the manifest lacks.
+void Stage::describe() {
+    info.title = scene::utf8(fs::path(file).filename().string());
     const scene::Camera camera = scene::frame(bounds);
     info.floor = bounds.min.y;
     info.eye = camera.eye;
@@ -100,8 +69,6 @@ void Stage::loadFile(const fs::path& path_) {
     info.toyScale = std::clamp(bounds.radius() * 0.25f, 0.2f, 3.0f);
     info.walkMin = {bounds.min.x - bounds.radius(), bounds.min.z - bounds.radius()};
     info.walkMax = {bounds.max.x + bounds.radius(), bounds.max.z + bounds.radius()};
-    path = orbit(bounds);
-    loadToys(false);
 }
 
 void Stage::loadToys(bool wanted) {

@@ -18,7 +18,7 @@ public:
 
     // `scene` is a name of the manifest or a path; `bare` leaves out the toys that the manifest sets down. Throws app::Complaint or
     // scene::Error.
-    explicit Stage(const std::string& scene, bool bare = false);
+    explicit Stage(const std::string& scene, bool bare = false, const std::string& animation = "all");
 
     scene::World world;
     app::SceneInfo info;
@@ -48,8 +48,7 @@ public:
     float moveSpeed() const;  // metres a second that suit the scene's size
 
 private:
-    void loadNamed(const app::SceneFile& named, bool bare);
-    void loadFile(const std::filesystem::path& file);
+    void describe();
     void loadToys(bool wanted);
     void placeGroup(const app::ToyGroup& group);
     glm::vec3 freePlace(const glm::vec3& at) const;

@@ -91,7 +91,8 @@ void Game::drawFrame() {
         if (std::find(m_session.passNames.begin(), m_session.passNames.end(), written.pass) == m_session.passNames.end())
             m_session.passNames.push_back(written.pass);
     const bool last = m_options.frames && m_shown + 1 >= *m_options.frames;
-    if (m_session.wantsScreenshot) takeScreenshot(graph, outputs.color, app::freshName("obscura", ".png"), false);
+    if (m_session.wantsScreenshot)
+        takeScreenshot(graph, outputs.color, app::freshName((m_session.options.out / "obscura").string(), ".png"), false);
     m_session.wantsScreenshot = false;
     if (last && !m_options.screenshot.empty()) takeScreenshot(graph, outputs.color, m_options.screenshot, true);
     if (!m_overlayTried) makeOverlay(graph.desc(outputs.color).format);
@@ -164,12 +165,13 @@ void Game::run() {
 }  // namespace
 
 int playWindowed(const Options& options) {
+    if (!options.out.empty()) app::expectFolder(options.out);
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
     std::string error;
     auto window = app::Window::open("Obscura", int(options.size.width), int(options.size.height), error);
     if (!window) return runWithoutWindow(options, "no window: " + error);
 
-    Stage stage(options.scene, options.bare);
+    Stage stage(options.scene, options.bare, options.animation);
     stage.camera(options.camera, options.time);
     for (const std::string& remark : stage.remarks) fmt::print(stderr, "obscura: {}\n", remark);
     stage.dropToys(options.toys, options.time);

@@ -30,17 +30,30 @@ graph::ImageId importView(graph::Graph& graph, const char* name, const ImageView
     external.desc = {v.format, size.width, size.height};
     external.layout = v.layout;
     external.layoutAfter = v.layout;
+    external.mip = v.mip;
+    external.layer = v.layer;
     return graph.import(name, external);
 }
 
 graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame, bool forecast) {
     const GivenImages given = imagesOf(frame, forecast);
     Sources sources;
-    sources.depth = importView(graph, "depth", frame.depth, frame.size);
-    if (given.normals) sources.normals = importView(graph, "normals", frame.normals, frame.size);
-    if (given.motion) sources.motion = importView(graph, "motion", frame.motion, frame.size);
-    if (given.thickness) sources.layers.thickness = importView(graph, "thickness", frame.layers.thickness, frame.size);
-    if (given.second) sources.layers.second = importView(graph, "second layer", frame.layers.second, frame.layers.secondSize);
+    bool made = true;
+    const auto import = [&](const char* name, const ImageView& v, VkExtent2D size, Crop::Texel texel) {
+        const graph::ImageId whole = importView(graph, name, v, extentOf(frame, size));
+        if (frame.origin.x == 0 && frame.origin.y == 0) return whole;
+        const graph::ImageId part = context.crop.add(*context.device, context.shaders, graph, whole, originOf(frame, size), size, texel);
+        made = made && part;
+        return part;
+    };
+    const bool packed = frame.normalEncoding == NormalEncoding::octahedral32;
+    using enum Crop::Texel;
+    sources.depth = import("depth", frame.depth, frame.size, floats2);
+    if (given.normals) sources.normals = import("normals", frame.normals, frame.size, packed ? integer : floats4);
+    if (given.motion) sources.motion = import("motion", frame.motion, frame.size, floats2);
+    if (given.thickness) sources.layers.thickness = import("thickness", frame.layers.thickness, frame.size, floats2);
+    if (given.second) sources.layers.second = import("second layer", frame.layers.second, frame.layers.secondSize, floats2);
+    if (!made) return {};
     if (const Volume& v = frame.volume; v.buffer)
         sources.volume = graph.import("volume bits",
             {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ao/crop.h"
 #include "ao/library.h"
 #include "graph/executor.h"
 
@@ -31,6 +32,7 @@ struct Context {
     std::unique_ptr<graph::Graph> graph;
     std::unique_ptr<graph::Executor> executor;
     std::unique_ptr<Library> library;
+    Crop crop;                        // for Frame::origin
     gpu::Program toR8;                // R16F to R8, for VisibilityFormat::r8
     std::vector<gpu::Image> outputs;  // a ring: the host may still read the last frames'
     uint64_t methodBytes = 0;         // device memory that methods allocated when they were made

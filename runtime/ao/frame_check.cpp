@@ -60,6 +60,16 @@ Status checkImage(const Context& context, const GivenImage& image, bool forecast
 
 }  // namespace
 
+VkOffset2D originOf(const Frame& frame, VkExtent2D size) {
+    const int32_t side = size.width == frame.size.width && size.height == frame.size.height ? 1 : 2;
+    return {frame.origin.x / side, frame.origin.y / side};
+}
+
+VkExtent2D extentOf(const Frame& frame, VkExtent2D size) {
+    const VkOffset2D origin = originOf(frame, size);
+    return {uint32_t(origin.x) + size.width, uint32_t(origin.y) + size.height};
+}
+
 GivenImages imagesOf(const Frame& frame, bool forecast) {
     const auto is = [&](const ImageView& v) { return forecast ? v.format != VK_FORMAT_UNDEFINED : v.image || v.view; };
     return {is(frame.normals), is(frame.motion), is(frame.layers.thickness), is(frame.layers.second)};
@@ -72,6 +82,7 @@ Status checkFrame(const Context& context, const Frame& frame, bool forecast, sha
     if (viewOf(frame, view, reason) != Status::ok) return invalid(reason);
     if (!allFinite(frame.eyeFromWorld)) return invalid("Frame::eyeFromWorld holds a value that is not finite");
     if (!allFinite(frame.motionScale)) return invalid("Frame::motionScale holds a value that is not finite");
+    if (!allFinite(frame.jitter)) return invalid("Frame::jitter holds a value that is not finite");
     if (std::isnan(frame.skyDepth)) return invalid("Frame::skyDepth is not a number");
     const uint32_t most = context.device->caps().maxImageSize;
     if (std::max(frame.size.width, frame.size.height) > most)
@@ -87,11 +98,17 @@ Status checkFrame(const Context& context, const Frame& frame, bool forecast, sha
     if (given.second && !isReduced(1) && !isReduced(2))
         return invalid(fmt::format("Frame::layers.secondSize is {} x {}; it must be Frame::size, {} x {}, or half of it rounded up",
             layers.secondSize.width, layers.secondSize.height, frame.size.width, frame.size.height));
-    const GivenImage images[] = {{"depth", true, frame.depth, depthRole(frame), frame.size},
-        {"normals", given.normals, frame.normals, normalsRole(frame), frame.size},
-        {"motion", given.motion, frame.motion, Role::motion, frame.size},
-        {"layers.thickness", given.thickness, layers.thickness, Role::thickness, frame.size},
-        {"layers.second", given.second, layers.second, Role::second, layers.secondSize}};
+    if (frame.origin.x < 0 || frame.origin.y < 0 || uint32_t(frame.origin.x) > most || uint32_t(frame.origin.y) > most)
+        return invalid(
+            fmt::format("Frame::origin is ({}, {}); it is the upper left pixel of a part of the images", frame.origin.x, frame.origin.y));
+    if (given.second && !isReduced(1) && (frame.origin.x % 2 || frame.origin.y % 2))
+        return invalid(
+            fmt::format("Frame::origin is ({}, {}); with layers.second of half size it must be even", frame.origin.x, frame.origin.y));
+    const VkExtent2D whole = extentOf(frame, frame.size), second = extentOf(frame, layers.secondSize);
+    const GivenImage images[] = {{"depth", true, frame.depth, depthRole(frame), whole},
+        {"normals", given.normals, frame.normals, normalsRole(frame), whole}, {"motion", given.motion, frame.motion, Role::motion, whole},
+        {"layers.thickness", given.thickness, layers.thickness, Role::thickness, whole},
+        {"layers.second", given.second, layers.second, Role::second, second}};
     for (const GivenImage& image : images) {
         if (!image.given) continue;
         if (const Status status = checkImage(context, image, forecast); status != Status::ok) return status;

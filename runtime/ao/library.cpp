@@ -68,9 +68,11 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     if (use != LayerMode::none) inputs.layers.thickness = sources.layers.thickness;
     if (use > LayerMode::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;
     previousFromEye(frame.eyeFromWorld, discard ? frame.eyeFromWorld : m_eyeFromWorld, inputs.previousFromEye);
-    graph.onRecorded([this, info = &values.info(), eye = std::to_array(frame.eyeFromWorld)] {
+    for (int axis = 0; axis < 2; ++axis) inputs.motionOffset[axis] = m_jitter[axis] - frame.jitter[axis];
+    graph.onRecorded([this, info = &values.info(), eye = std::to_array(frame.eyeFromWorld), jitter = std::to_array(frame.jitter)] {
         m_last = info;
         std::copy(eye.begin(), eye.end(), m_eyeFromWorld);
+        std::copy(jitter.begin(), jitter.end(), m_jitter);
     });
     Method& method = *methodOf(values, falloff.kind);
     const MethodEntry& entry = registry()[values.index()];

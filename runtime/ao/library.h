@@ -42,6 +42,7 @@ private:
     std::map<std::pair<size_t, FalloffKind>, std::unique_ptr<Method>> m_methods;  // by registry order; null: could not be made
     const MethodInfo* m_last = nullptr;                                           // the last recorded frame's; null: there is no history
     float m_eyeFromWorld[16] = {};                                                // the last recorded frame's
+    float m_jitter[2] = {};                                                       // the last recorded frame's
     bool m_valid = false;
 };
 

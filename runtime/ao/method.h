@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "ao/result.h"
 #include "ao/values.h"
 #include "graph/graph.h"
-#include "obscura/ao.h"
 #include "shared/falloff.h"
 #include "shared/view.h"
 #include "shared/volume.h"
@@ -37,9 +37,10 @@ struct Inputs {
     graph::ImageId normals;     // R32UI, view.size: geometric eye-space normals, packNormal()
     graph::ImageId motion;      // two floats, view.size, optional: times motionScale, px from this frame's position to last frame's
     float motionScale[2];
-    float previousFromEye[12];  // three rows: this frame's eye space -> last frame's, for points at rest in the world
-    LayerInputs layers;         // optional; only those that the values use
-    VolumeInput volume;         // optional
+    float motionOffset[2] = {0.0f, 0.0f};  // px, added to that
+    float previousFromEye[12];             // three rows: this frame's eye space -> last frame's, for points at rest in the world
+    LayerInputs layers;                    // optional; only those that the values use
+    VolumeInput volume;                    // optional
     shared::FalloffBlock falloff;
     Falloff falloffDesc;
 };

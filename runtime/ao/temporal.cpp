@@ -25,6 +25,7 @@ graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::I
     static_assert(sizeof(constants.previousFromEye) == sizeof(inputs.previousFromEye));
     std::memcpy(constants.previousFromEye, inputs.previousFromEye, sizeof(inputs.previousFromEye));
     constants.motionScale = {inputs.motionScale[0], inputs.motionScale[1]};
+    constants.motionOffset = {inputs.motionOffset[0], inputs.motionOffset[1]};
     constants.history = std::min(settings.history, 0.98f);
     constants.depthTolerance = settings.depthTolerance;
     constants.normalTolerance = settings.normalTolerance;

@@ -45,7 +45,8 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
     float farPlane = 0.0f;
     for (const float d : {0.0f, 1.0f}) {
         const float depth = (d * view.linearize.x + view.linearize.y) / (d * view.linearize.z + view.linearize.w);
-        farPlane = std::isfinite(depth) && depth > 0.0f ? std::max(farPlane, depth) : kSkyDepth;
+        if (std::isfinite(depth) && (depth > 0.0f || !perspective)) farPlane = std::max(farPlane, depth);  // orthographic: near may be 0
+        else farPlane = kSkyDepth;
     }
     view.skyDepth = std::min(kSkyDepth, frame.skyDepth > 0.0f                  ? frame.skyDepth
                                         : frame.depthKind == DepthKind::linear ? kSkyDepth

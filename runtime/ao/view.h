@@ -1,7 +1,7 @@
 // Frame and Volume of the API as the blocks that shaders read.
 #pragma once
 
-#include "obscura/ao.h"
+#include "ao/result.h"
 #include "shared/view.h"
 #include "shared/volume.h"
 

@@ -1,12 +1,15 @@
 #include "app/content.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "app/complaint.h"
 #include "app/files.h"
 #include "scene/json_file.h"
+#include "scene/json_text.h"
 
 namespace obscura::app {
 
@@ -119,10 +122,10 @@ SceneFile findScene(const std::string& nameOrPath) {
     }
     std::error_code ignored;
     if (fs::is_regular_file(nameOrPath, ignored)) {
-        SceneFile scene;
-        scene.info.name = fs::path(nameOrPath).stem().string();
-        scene.file = nameOrPath;
-        return scene;
+        SceneFile found;
+        found.info.name = scene::utf8(fs::path(nameOrPath).stem().string());
+        found.file = nameOrPath;
+        return found;
     }
     const bool path = nameOrPath.find('/') != std::string::npos || nameOrPath.find(".gl") != std::string::npos;
     throw Complaint(path
@@ -135,6 +138,82 @@ SceneFile expectScene(const std::string& nameOrPath) {
     SceneFile scene = findScene(nameOrPath);
     if (scene.file.empty()) throw Complaint(fmt::format("--scene {}: its file is missing; {}", scene.info.name, scene.info.howToGet));
     return scene;
+}
+
+namespace {
+
+std::string nameOr(const std::string& name, const char* kind, size_t index) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : scene::utf8(name);
+}
+
+}  // namespace
+
+int animationOf(const scene::Model& model, const std::string& name) {
+    if (name == "all") return scene::kAllAnimations;
+    if (name == "none") return scene::kRestPose;
+    std::vector<std::string> names{"all", "none"};
+    for (size_t i = 0; i < model.animations.size(); ++i) {
+        if (model.animations[i].name == name || std::to_string(i) == name) return int(i);
+        names.push_back(nameOr(model.animations[i].name, "animation", i));
+    }
+    throw Complaint(fmt::format("--animation {}: {} has no such animation; {}", name, model.name, choices(name, names)));
+}
+
+std::string contentList(const scene::Model& model) {
+    std::string text = fmt::format("{}: {} nodes, {} triangles\n", scene::utf8(model.name), model.order.size(), model.triangleCount());
+    int camera = 0;
+    for (const int node : model.order) {
+        if (model.nodes[size_t(node)].camera < 0) continue;
+        const size_t index = size_t(model.nodes[size_t(node)].camera);
+        const scene::Lens& lens = model.lenses[index];
+        const std::string range =
+            lens.farPlane > 0.0f ? fmt::format("{:g} to {:g}", lens.nearPlane, lens.farPlane) : fmt::format("from {:g} on", lens.nearPlane);
+        text += fmt::format("camera     --camera scene:{}  {}, {}, {}\n", camera++, nameOr(lens.name, "camera", index),
+            lens.perspective ? fmt::format("perspective, {:.1f} degrees high", glm::degrees(lens.fovY))
+                             : fmt::format("orthographic, {:g} high", 2.0f * lens.halfHeight),
+            range);
+    }
+    const std::vector<int> together = scene::playing(model, scene::kAllAnimations);
+    for (size_t i = 0; i < model.animations.size(); ++i) {
+        const bool plays = std::find(together.begin(), together.end(), int(i)) != together.end();
+        text += fmt::format("animation  --animation {}  {}, {:g} s, {}\n", i, nameOr(model.animations[i].name, "animation", i),
+            model.animations[i].duration, plays ? "plays" : "moves what an earlier one moves: plays if chosen");
+    }
+    for (const std::string& variant : model.variants)
+        text += fmt::format("variant    {}: ignored, the default materials are shown\n", scene::utf8(variant));
+    for (const scene::Extension& extension : model.extensions)
+        text += fmt::format("extension  {}: {}\n", scene::utf8(extension.name), extension.read ? "read" : "ignored");
+    for (const std::string& warning : model.warnings) text += fmt::format("remark     {}\n", scene::utf8(warning));
+    return text;
+}
+
+PlacedScene loadScene(const SceneFile& file, const std::string& animation) {
+    PlacedScene placed{{.model = scene::loadGltf(file.file)}, {}, {}};
+    const scene::Model& model = *placed.instance.model;
+    placed.instance.animation = animationOf(model, animation);
+    placed.remarks = model.warnings;
+    if (const size_t plays = scene::playing(model, placed.instance.animation).size(); animation == "all" && plays < model.animations.size())
+        placed.remarks.push_back(fmt::format("{}: {} of {} animations play, since the others move the same nodes; --animation chooses one",
+            file.file.string(), plays, model.animations.size()));
+    const auto measure = [&] {
+        scene::World world;
+        world.add(placed.instance);
+        placed.bounds = scene::bounds(world, 0.0f);
+    };
+    measure();
+    if (placed.bounds.empty)
+        throw Complaint(fmt::format("--scene {}: contains nothing to draw; it needs at least one triangle", file.file.string()));
+    if (file.named) return placed;
+    constexpr float kLargest = 120.0f, kSmallest = 0.25f;
+    const float radius = placed.bounds.radius();
+    float scale = 1.0f;
+    while (radius * scale > kLargest) scale *= 0.1f;
+    while (radius * scale < kSmallest && radius > 0.0f && scale < 1e9f) scale *= 10.0f;
+    if (scale == 1.0f) return placed;
+    placed.remarks.push_back(fmt::format("{}: {:g} m across, shown at {:g} times its size", file.file.string(), 2.0f * radius, scale));
+    placed.instance.placement = glm::scale(glm::mat4(1.0f), glm::vec3(scale));
+    measure();
+    return placed;
 }
 
 }  // namespace obscura::app

@@ -57,4 +57,18 @@ SceneFile findScene(const std::string& nameOrPath);
 // As findScene(), but throws Complaint if the file is missing.
 SceneFile expectScene(const std::string& nameOrPath);
 
+// A loaded scene and where it stands in the world.
+struct PlacedScene {
+    scene::Instance instance;          // placement: identity, or a power of ten for a file in another unit than metres
+    scene::Bounds bounds;              // as placed, at time 0
+    std::vector<std::string> remarks;  // one line each: what was ignored, repaired or scaled
+};
+// The animation that a name asks for: "all", "none", a name or an index of the model's. Throws Complaint, which lists the known names.
+int animationOf(const scene::Model& model, const std::string& name);
+// Cameras, animations, material variants and extensions of a model, and what becomes of each, one line each.
+std::string contentList(const scene::Model& model);
+// Scenes of the manifest are in metres. Other files are scaled by powers of ten until their radius lies between 0.25 m and 120 m. Throws
+// scene::Error, and Complaint if there is nothing to draw.
+PlacedScene loadScene(const SceneFile& file, const std::string& animation = "all");
+
 }  // namespace obscura::app

@@ -18,7 +18,7 @@ void Executor::barriers(const Recording& recording, VkCommandBuffer cmd, const s
         } else {
             images.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, nullptr, b.srcStages, b.srcAccess, b.dstStages, b.dstAccess, b.from,
                 b.to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, physical.image,
-                {gpu::aspectOf(resource.desc.format), b.firstMip, b.mips, 0, 1}});
+                {gpu::aspectOf(resource.desc.format), physical.firstMip + b.firstMip, b.mips, physical.layer, 1}});
         }
     }
     const VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO, nullptr, 0, 0, nullptr, uint32_t(buffers.size()), buffers.data(),

@@ -90,7 +90,7 @@ ImageId Graph::import(std::string name, const External& external) {
                     .initial = {{external.layout, external.stages, written}},
                     .finalLayout = external.layoutAfter,
                     .output = true},
-        {external.image, external.view})};
+        {.image = external.image, .view = external.view, .firstMip = external.mip, .layer = external.layer})};
 }
 
 BufferId Graph::import(std::string name, const gpu::Buffer& buffer, Shared shared) {

@@ -45,6 +45,7 @@ struct External {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;                     // on entry; UNDEFINED: contents do not matter
     VkImageLayout layoutAfter = VK_IMAGE_LAYOUT_UNDEFINED;                // UNDEFINED: as the last pass leaves it
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // last used by; also waits on the acquire semaphore here
+    uint32_t mip = 0, layer = 0;                                          // that `view` shows
 };
 
 class Graph {

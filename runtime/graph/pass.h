@@ -39,6 +39,7 @@ struct Physical {
     VkImageView view = VK_NULL_HANDLE;  // all mips
     const gpu::Image* owned = nullptr;  // for views of single mips; null for imported images
     ExternalBuffer buffer;
+    uint32_t firstMip = 0, layer = 0;  // of an imported image
     VkImageView mip(uint32_t level) const { return owned ? owned->mipView(level) : view; }
 };
 

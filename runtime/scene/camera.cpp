@@ -18,7 +18,10 @@ glm::mat4 Camera::view() const {
     glm::vec3 above = up;
     if (!(glm::length(glm::cross(forward, above)) > 1e-6f * glm::length(above)))
         above = std::abs(forward.z) < 0.9f ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
-    return glm::lookAt(eye, eye + forward, above);
+    // Turned first, since eye + forward has no direction where a float's step is a metre.
+    glm::mat4 view = glm::lookAt(glm::vec3(0.0f), forward, above);
+    view[3] = glm::vec4(-(glm::mat3(view) * eye), 1.0f);
+    return view;
 }
 
 glm::mat4 Camera::projection(glm::vec2 size, glm::vec2 visible) const {
@@ -27,7 +30,7 @@ glm::mat4 Camera::projection(glm::vec2 size, glm::vec2 visible) const {
         // Pixels are square and the guard band lies around the visible part, so one number scales both axes.
         const float pixelsPerMetre = visible.y / (2.0f * orthoHalfHeight);
         // 500 m at the default near distance of 0.05 m: 24 bits of linear depth resolve 0.03 mm.
-        const float far = 1e4f * std::max(nearPlane, 1e-4f);
+        const float far = farPlane > 0.0f ? farPlane : 1e4f * std::max(nearPlane, 1e-4f);
         m[0][0] = 2.0f * pixelsPerMetre / size.x;
         m[1][1] = -2.0f * pixelsPerMetre / size.y;
         m[2][2] = 1.0f / (far - nearPlane);
@@ -40,6 +43,10 @@ glm::mat4 Camera::projection(glm::vec2 size, glm::vec2 visible) const {
     m[1][1] = -2.0f * focalPixels / size.y;
     m[2][3] = -1.0f;
     m[3][2] = nearPlane;
+    if (farPlane > 0.0f) {
+        m[2][2] = nearPlane / (farPlane - nearPlane);
+        m[3][2] = farPlane * m[2][2];
+    }
     return m;
 }
 
@@ -70,9 +77,11 @@ Camera lensCamera(const Instance& instance, const Pose& pose, int index) {
         const glm::vec3 forward = -glm::vec3(matrix[2]), up = glm::vec3(matrix[1]);
         camera.target = camera.eye + (glm::length(forward) > 0.0f ? glm::normalize(forward) : glm::vec3(0.0f, 0.0f, -1.0f));
         camera.up = glm::length(up) > 0.0f ? glm::normalize(up) : glm::vec3(0.0f, 1.0f, 0.0f);
-        camera.nearPlane = lens.nearPlane;
+        const float unit = glm::length(glm::vec3(instance.placement[1]));  // metres a unit of the file
+        camera.nearPlane = unit * lens.nearPlane;
+        camera.farPlane = unit * lens.farPlane;
         if (lens.perspective) camera.fovY = lens.fovY;
-        else camera.orthoHalfHeight = lens.halfHeight;
+        else camera.orthoHalfHeight = unit * lens.halfHeight;
         break;
     }
     return camera;
@@ -86,8 +95,8 @@ Camera loadCamera(const std::filesystem::path& file) {
     camera.eye = vector3(root.at("eye"));
     camera.target = vector3(root.at("target"));
     if (const auto up = root.find("up")) camera.up = vector3(*up);
-    if (const auto fov = root.find("verticalFovDegrees")) camera.fovY = float(glm::radians(fov->number(1.0, 170.0)));
-    if (const auto near = root.find("near")) camera.nearPlane = float(near->number(1e-5, 1e3));
+    if (const auto fov = root.find("verticalFovDegrees")) camera.fovY = fieldOfView(*fov);
+    if (const auto near = root.find("near")) camera.nearPlane = float(near->number(1e-5, 1e6));
     if (camera.eye == camera.target) root.at("target").fail("must differ from eye");
     if (camera.up == glm::vec3(0.0f)) root.at("up").fail("must not be the zero vector");
     return camera;

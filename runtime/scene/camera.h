@@ -15,18 +15,21 @@ struct Camera {
     glm::vec3 target{0.0f, 1.0f, 0.0f};  // world
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     float fovY = 1.0471976f;       // radians, of the visible part (the guard band adds to it)
-    float nearPlane = 0.05f;       // metres; far is at infinity
+    float nearPlane = 0.05f;       // metres; orthographic: may be 0
+    float farPlane = 0.0f;         // metres; 0: at infinity (orthographic: at 1e4 times the near distance)
     float orthoHalfHeight = 0.0f;  // > 0: orthographic, half the visible height in metres
+    bool operator==(const Camera&) const = default;
 
     glm::mat4 view() const;  // world -> eye
-    // Eye -> clip, Vulkan: y down, depth reversed (1 at the near plane, 0 at infinity). `size`: px of the whole image, guard band included;
-    // `visible`: px of the part that fovY spans. Orthographic cameras have linear depth, with the far plane at 1e4 times the near distance.
+    // Eye -> clip, Vulkan: y down, depth reversed (1 at the near plane, 0 at the far plane). `size`: px of the whole image, guard band
+    // included; `visible`: px of the part that fovY spans. Orthographic cameras have linear depth.
     glm::mat4 projection(glm::vec2 size, glm::vec2 visible) const;
 };
 
 // A camera that shows the bounds in a three-quarter view.
 Camera frame(const Bounds& bounds);
-// The camera of a posed glTF node; `index` counts the nodes with a camera in Model::order.
+// The camera of a posed glTF node; `index` counts the nodes with a camera in Model::order. Its lengths are scaled by the instance's
+// placement; scales of the file's nodes do not affect a lens.
 Camera lensCamera(const Instance& instance, const Pose& pose, int index);
 int lensCount(const Model& model);
 
@@ -54,5 +57,7 @@ public:
     void save(const std::filesystem::path& file) const;  // temporary name, then rename
 };
 CameraPath loadCameraPath(const std::filesystem::path& file);
+// Once around the bounds in 24 s, as far away and as high as frame().
+CameraPath orbit(const Bounds& bounds);
 
 }  // namespace obscura::scene

@@ -12,6 +12,7 @@
 
 #include "scene/camera.h"
 #include "scene/json_file.h"
+#include "scene/json_text.h"
 
 namespace obscura::scene {
 namespace {
@@ -96,7 +97,7 @@ CameraPath::Key keyOf(const JsonAt& at) {
     key.time = float(at.at("time").number(0.0, 1e6));
     key.eye = vector3(at.at("eye"));
     key.target = vector3(at.at("target"));
-    if (const auto fov = at.find("verticalFovDegrees")) key.fovY = float(glm::radians(fov->number(1.0, 170.0)));
+    if (const auto fov = at.find("verticalFovDegrees")) key.fovY = fieldOfView(*fov);
     if (key.eye == key.target) at.at("target").fail("must differ from eye");
     return key;
 }
@@ -153,15 +154,28 @@ CameraPath loadCameraPath(const std::filesystem::path& file) {
     if (path.loop && path.keys.size() > 1 && last.time >= first.time + path.duration &&
         (last.eye != first.eye || last.target != first.target || last.fovY != first.fovY))
         keys.at(keys.size() - 1).fail("a loop's last key has the time of its first; make both equal, or raise the duration");
-    if (const auto events = root.find("events")) path.events = events->expectArray().json().dump();
+    if (const auto events = root.find("events")) path.events = dump(events->expectArray().json());
+    return path;
+}
+
+CameraPath orbit(const Bounds& bounds) {
+    const Camera first = frame(bounds);
+    const glm::vec3 arm = first.eye - first.target;
+    CameraPath path;
+    path.name = "orbit";
+    constexpr int kKeys = 12;
+    path.duration = 24.0f;
+    for (int i = 0; i < kKeys; ++i) {
+        const float turn = glm::radians(360.0f * float(i) / kKeys);
+        const glm::vec3 turned(arm.x * std::cos(turn) + arm.z * std::sin(turn), arm.y, arm.z * std::cos(turn) - arm.x * std::sin(turn));
+        path.keys.push_back({path.duration * float(i) / kKeys, first.target + turned, first.target, first.fovY});
+    }
     return path;
 }
 
 void CameraPath::save(const std::filesystem::path& file) const {
     const auto triple = [](const glm::vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); };
-    const auto quoted = [](const std::string& text) {
-        return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    };
+    const auto quoted = [](const std::string& text) { return dump(nlohmann::json(text)); };
     std::string text = fmt::format("{{\n  \"name\": {},\n  \"scene\": {},\n  \"duration\": {},\n  \"loop\": {},\n  \"keys\": [\n",
         quoted(name), quoted(scene), duration, loop);
     for (size_t i = 0; i < keys.size(); ++i) {

@@ -22,8 +22,17 @@ JsonFile::JsonFile(const std::filesystem::path& file) : m_name(file.string()) {
 }
 
 glm::vec3 vector3(const JsonAt& at) {
+    constexpr double kFarthest = 1e9;  // squares of such lengths are finite
     at.expectNumbers(3);
-    return {at.at(size_t(0)).number(), at.at(1).number(), at.at(2).number()};
+    glm::vec3 v;
+    for (int i = 0; i < 3; ++i) v[i] = float(at.at(size_t(i)).number(-kFarthest, kFarthest));
+    return v;
+}
+
+// The lenses of files may be narrower than a game's; beyond 170 degrees a picture is all edge.
+float fieldOfView(const JsonAt& at) {
+    constexpr double kNarrowest = 1e-3, kWidest = 170.0;
+    return float(glm::radians(at.number(kNarrowest, kWidest)));
 }
 
 std::vector<std::string> texts(const JsonAt& at) {

@@ -21,7 +21,8 @@ private:
     nlohmann::json m_json;
 };
 
-glm::vec3 vector3(const JsonAt& at);
+glm::vec3 vector3(const JsonAt& at);               // metres, each within 1e9
+float fieldOfView(const JsonAt& at);               // degrees in the file, radians here
 std::vector<std::string> texts(const JsonAt& at);  // an array of strings, not empty
 
 }  // namespace obscura::scene

@@ -131,7 +131,8 @@ struct Lens {
     float fovY = 1.0471976f;  // radians, perspective only
     float halfHeight = 1.0f;  // metres, orthographic only
     float aspect = 0.0f;      // 0: the window's
-    float nearPlane = 0.05f;
+    float nearPlane = 0.05f;  // metres; orthographic: may be 0
+    float farPlane = 0.0f;    // metres; 0: at infinity
 };
 
 enum class Interpolation : uint8_t { step, linear, cubicSpline };
@@ -152,6 +153,12 @@ struct Animation {
     std::vector<Channel> channels;
 };
 
+// An extension that the file lists as used.
+struct Extension {
+    std::string name;
+    bool read = false;  // false: ignored
+};
+
 struct Model {
     std::string name;   // file stem
     uint64_t hash = 0;  // of the bytes of all files read, and of the scene index
@@ -165,7 +172,10 @@ struct Model {
     std::vector<int> order;    // nodes reachable from roots, parents before children
     std::vector<Lens> lenses;  // glTF cameras
     std::vector<Animation> animations;
-    std::vector<std::string> warnings;  // one line each: what was ignored or repaired
+    glm::dvec3 origin{0.0};             // of model space in the file's space; not 0 for a scene far from the file's origin
+    std::vector<Extension> extensions;  // in the file's order
+    std::vector<std::string> variants;  // names of KHR_materials_variants, which are ignored
+    std::vector<std::string> warnings;  // one line each: what was ignored, repaired or moved
 
     size_t triangleCount() const;  // of all meshes as instanced by nodes in `order`
 };

@@ -53,6 +53,23 @@ void sample(const Channel& channel, float time, float* out) {
 
 }  // namespace
 
+std::vector<int> playing(const Model& model, int animation) {
+    const size_t count = model.animations.size();
+    if (animation != kAllAnimations) return animation >= 0 && size_t(animation) < count ? std::vector{animation} : std::vector<int>();
+    if (count == 1) return {0};
+    constexpr size_t kPaths = 4;
+    std::vector<bool> moved(model.nodes.size() * kPaths, false);
+    const auto target = [](const Channel& channel) { return size_t(channel.node) * kPaths + size_t(channel.path); };
+    std::vector<int> list;
+    for (size_t i = 0; i < count; ++i) {
+        const std::vector<Channel>& channels = model.animations[i].channels;
+        if (std::any_of(channels.begin(), channels.end(), [&](const Channel& channel) { return moved[target(channel)]; })) continue;
+        for (const Channel& channel : channels) moved[target(channel)] = true;
+        list.push_back(int(i));
+    }
+    return list;
+}
+
 Pose evaluate(const Model& model, int animation, float time, bool loop) {
     struct Local {
         glm::vec3 translation;
@@ -72,22 +89,23 @@ Pose evaluate(const Model& model, int animation, float time, bool loop) {
             if (!mesh.weights.empty()) pose.weights[i] = node.weights.empty() ? mesh.weights : node.weights;
         }
     }
-    if (animation >= 0 && size_t(animation) < model.animations.size()) {
-        const Animation& source = model.animations[size_t(animation)];
-        if (!std::isfinite(time)) time = 0.0f;
+    if (!std::isfinite(time)) time = 0.0f;
+    for (const int index : playing(model, animation)) {
+        const Animation& source = model.animations[size_t(index)];
+        float at = time;
         if (loop && source.duration > 0.0f) {
-            time = std::fmod(time, source.duration);
-            if (time < 0.0f) time += source.duration;
+            at = std::fmod(time, source.duration);
+            if (at < 0.0f) at += source.duration;
         }
         for (const Channel& channel : source.channels) {
             Local& target = local[size_t(channel.node)];
             float value[4];
             if (channel.path == AnimatedPath::weights) {
                 auto& weights = pose.weights[size_t(channel.node)];
-                if (weights.size() == size_t(channel.components)) sample(channel, time, weights.data());
+                if (weights.size() == size_t(channel.components)) sample(channel, at, weights.data());
                 continue;
             }
-            sample(channel, time, value);
+            sample(channel, at, value);
             if (channel.path == AnimatedPath::translation) target.translation = {value[0], value[1], value[2]};
             if (channel.path == AnimatedPath::rotation) target.rotation = unit(quaternion(value));
             if (channel.path == AnimatedPath::scale) target.scale = {value[0], value[1], value[2]};

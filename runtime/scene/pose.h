@@ -12,8 +12,14 @@ struct Pose {
     std::vector<std::vector<float>> weights;  // morph weights, one vector per node (empty without morph targets)
 };
 
-// time in seconds, wrapped into the animation's duration when `loop`. animation -1 or out of range: the rest pose.
-// Quaternions are slerped, CUBICSPLINE per glTF 2.0 appendix C.
+// What plays: an animation by its index, or one of these.
+inline constexpr int kRestPose = -1;
+inline constexpr int kAllAnimations = -2;
+// The animations that play. All together: those that move nothing which an earlier one moves in the same way; the others are alternatives.
+// An index out of range: none.
+std::vector<int> playing(const Model& model, int animation);
+
+// time in seconds, wrapped into each animation's duration when `loop`. Quaternions are slerped, CUBICSPLINE per glTF 2.0 appendix C.
 Pose evaluate(const Model& model, int animation, float time, bool loop = true);
 
 // Joint matrices of a skin in model space: world[joint] * inverseBind. The node's own transform does not apply to

@@ -61,8 +61,9 @@ size_t World::triangleCount() const {
 float World::duration() const {
     float longest = 0.0f;
     for (const Instance& instance : m_instances)
-        if (instance.model && instance.animation >= 0 && size_t(instance.animation) < instance.model->animations.size())
-            longest = std::max(longest, instance.model->animations[size_t(instance.animation)].duration);
+        if (instance.model)
+            for (const int index : playing(*instance.model, instance.animation))
+                longest = std::max(longest, instance.model->animations[size_t(index)].duration);
     return longest;
 }
 
@@ -76,10 +77,7 @@ std::vector<PosedPrimitive> pose(const World& world, float time) {
         if (last != &instance) {
             last = &instance;
             moving = animatedNodes(model, instance.animation);
-            morphing.assign(model.nodes.size(), false);
-            if (instance.animation >= 0 && size_t(instance.animation) < model.animations.size())
-                for (const Channel& channel : model.animations[size_t(instance.animation)].channels)
-                    if (channel.path == AnimatedPath::weights) morphing[size_t(channel.node)] = true;
+            morphing = morphingNodes(model, instance.animation);
         }
         for (const Primitive& primitive : model.meshes[size_t(node.mesh)].primitives) {
             PosedPrimitive entry;
@@ -139,12 +137,20 @@ std::vector<int> subtree(const Model& model, int root) {
 
 std::vector<bool> animatedNodes(const Model& model, int animation) {
     std::vector<bool> moving(model.nodes.size(), false);
-    if (animation < 0 || size_t(animation) >= model.animations.size()) return moving;
-    for (const Channel& channel : model.animations[size_t(animation)].channels)
-        if (channel.path != AnimatedPath::weights) moving[size_t(channel.node)] = true;
+    for (const int index : playing(model, animation))
+        for (const Channel& channel : model.animations[size_t(index)].channels)
+            if (channel.path != AnimatedPath::weights) moving[size_t(channel.node)] = true;
     for (const int node : model.order)
         if (const int parent = model.nodes[size_t(node)].parent; parent >= 0 && moving[size_t(parent)]) moving[size_t(node)] = true;
     return moving;
+}
+
+std::vector<bool> morphingNodes(const Model& model, int animation) {
+    std::vector<bool> morphing(model.nodes.size(), false);
+    for (const int index : playing(model, animation))
+        for (const Channel& channel : model.animations[size_t(index)].channels)
+            if (channel.path == AnimatedPath::weights) morphing[size_t(channel.node)] = true;
+    return morphing;
 }
 
 }  // namespace obscura::scene

@@ -10,11 +10,11 @@ namespace obscura::scene {
 
 struct Instance {
     std::shared_ptr<const Model> model;
-    glm::mat4 placement{1.0f};  // model -> world, metres
-    int animation = 0;          // -1: rest pose
-    float timeOffset = 0.0f;    // seconds added to the world's time
-    int root = -1;              // draw only this node's subtree; -1 draws all
-    uint32_t id = 0;            // set by World::add(): constant, unique in the world, not 0
+    glm::mat4 placement{1.0f};       // model -> world, metres
+    int animation = kAllAnimations;  // or an index, or kRestPose
+    float timeOffset = 0.0f;         // seconds added to the world's time
+    int root = -1;                   // draw only this node's subtree; -1 draws all
+    uint32_t id = 0;                 // set by World::add(): constant, unique in the world, not 0
 };
 
 class World {
@@ -58,7 +58,9 @@ Bounds bounds(const World& world, float time);
 
 // Nodes in the subtree of `root` (or all of model.order for -1), parents first.
 std::vector<int> subtree(const Model& model, int root);
-// Which nodes' matrices can change under an animation (own channel or an ancestor's).
+// Which nodes' matrices can change under an animation, as of Instance (own channel or an ancestor's).
 std::vector<bool> animatedNodes(const Model& model, int animation);
+// Which nodes have animated morph weights.
+std::vector<bool> morphingNodes(const Model& model, int animation);
 
 }  // namespace obscura::scene

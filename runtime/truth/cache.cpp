@@ -116,7 +116,7 @@ std::string viewKey(const scene::World& world, float time, const scene::Camera& 
     }
     if (world.duration() > 0.0f) hash.add(time);
     for (const glm::vec3& v : {camera.eye, camera.target, camera.up}) hash.add(&v, sizeof v);
-    hash.add(camera.fovY).add(camera.orthoHalfHeight);
+    hash.add(camera.fovY).add(camera.orthoHalfHeight).add(camera.farPlane);
     add(hash, {&falloff, 1});
     return "view-" + hash.hex();
 }

@@ -11,6 +11,7 @@
 
 #include "ao/prepare.h"
 #include "scene/json_file.h"
+#include "scene/json_text.h"
 
 namespace obscura::truth {
 namespace {
@@ -109,6 +110,11 @@ std::vector<uint8_t> CapturedFrame::visibleMask() const {
     return mask;
 }
 
+bool CapturedFrame::showsSurface() const {
+    const std::vector<uint8_t> mask = visibleMask();
+    return std::find(mask.begin(), mask.end(), uint8_t(1)) != mask.end();
+}
+
 void CapturedFrame::reconstructNormals() {
     normals.assign(depth.size(), glm::vec3(0.0f));
     const shared::View lens = view();
@@ -166,10 +172,9 @@ CapturedFrame emptyFrame(glm::uvec2 visible, glm::uvec2 guard, float verticalFov
     frame.verticalFov = verticalFov;
     frame.near = near;
     frame.camera = camera;
-    scene::Camera lens;
+    scene::Camera lens = camera.value_or(scene::Camera());
     lens.fovY = verticalFov;
     lens.nearPlane = near;
-    if (camera) lens.orthoHalfHeight = camera->orthoHalfHeight;
     frame.projection = lens.projection(glm::vec2(frame.size), glm::vec2(visible));
     frame.depth.assign(size_t(frame.size.x) * frame.size.y, frame.skyDepth);
     frame.normals.assign(frame.depth.size(), glm::vec3(0.0f));
@@ -182,8 +187,8 @@ CapturedFrame readCapture(const std::filesystem::path& path) {
     const JsonAt root = json.root();
     const glm::uvec2 visible = pair(root.at("visible"), 1);
     const glm::uvec2 guard = pair(root.at("guardBand"), 0);
-    const float fov = float(glm::radians(root.at("verticalFovDegrees").number(1.0, 170.0)));
-    const float near = float(root.at("near").number(1e-5, 1e3));
+    const float fov = scene::fieldOfView(root.at("verticalFovDegrees"));
+    const float near = float(root.at("near").number(root.has("projection") ? 0.0 : 1e-5, 1e6));
     std::optional<scene::Camera> camera;
     if (root.has("eye") || root.has("target")) {
         camera.emplace();
@@ -268,7 +273,7 @@ void writeCapture(const std::filesystem::path& path, const CapturedFrame& frame)
         picture.add(std::string("N.") + "XYZ"[axis], plane);
     }
     writeExr(withSuffix(stem, ".capture.exr"), picture);
-    const std::string text = json.dump(2) + "\n";
+    const std::string text = scene::dump(json, 2) + "\n";
     writeWhole(withSuffix(stem, ".json"), text.data(), text.size());
 }
 

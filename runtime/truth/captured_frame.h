@@ -42,6 +42,7 @@ struct CapturedFrame {
     size_t index(uint32_t x, uint32_t y) const { return size_t(y) * size.x + x; }  // whole image
     size_t visibleIndex(uint32_t x, uint32_t y) const { return index(x + guard.x, y + guard.y); }
     bool isSky(size_t i) const { return depth[i] >= skyDepth; }
+    bool showsSurface() const;  // a pixel of the visible part is not sky
     bool hasNormals() const { return !normals.empty(); }
     glm::vec3 eyePosition(uint32_t x, uint32_t y) const;  // of the pixel's centre, whole image; not for sky
     glm::mat4 worldFromEye() const;                       // identity without a camera

@@ -251,7 +251,7 @@ std::vector<RegionMetrics> compare(const Plane& visibility, const Plane& referen
     for (size_t i = 0; i < kRegions; ++i) {
         if (regions.masks[i].empty()) continue;
         const Metrics metrics = judge(maps, regions.masks[i]);
-        if (metrics.pixels > 0) all.push_back({Region(i), metrics});
+        if (Region(i) == Region::whole || metrics.pixels > 0) all.push_back({Region(i), metrics});
     }
     return all;
 }

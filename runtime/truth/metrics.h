@@ -57,8 +57,8 @@ struct RegionMetrics {
     Metrics metrics;
 };
 
-// Every known region with at least one pixel, whole first. Throws scene::Error if sizes differ or a value is not finite. Values are clamped
-// to [0,1]. Pixels outside `whole` count as open in the windows of SSIM and FLIP.
+// The whole first, even if it has no pixel; then every known region with at least one pixel. Throws scene::Error if sizes differ or a
+// value is not finite. Values are clamped to [0,1]. Pixels outside `whole` count as open in the windows of SSIM and FLIP.
 std::vector<RegionMetrics> compare(const Plane& visibility, const Plane& reference, const Regions& regions);
 
 // One region: valid pixels, empty mask for all.

@@ -17,10 +17,7 @@ bool Picked::operator()(const scene::Model& model, const scene::Primitive& primi
 std::vector<Part> partsOf(const scene::Instance& instance, const Picked& picked) {
     const scene::Model& model = *instance.model;
     const std::vector<bool> moving = scene::animatedNodes(model, instance.animation);
-    std::vector<bool> morphing(model.nodes.size(), false);
-    if (instance.animation >= 0 && size_t(instance.animation) < model.animations.size())
-        for (const scene::Channel& channel : model.animations[size_t(instance.animation)].channels)
-            if (channel.path == scene::AnimatedPath::weights) morphing[size_t(channel.node)] = true;
+    const std::vector<bool> morphing = scene::morphingNodes(model, instance.animation);
     std::vector<Part> parts;
     for (const int index : scene::subtree(model, instance.root)) {
         const scene::Node& node = model.nodes[size_t(index)];

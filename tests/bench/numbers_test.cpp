@@ -25,6 +25,13 @@ TEST(Bench, resultsRoundTripThroughTheirFile) {
     EXPECT_EQ(csv(readResults(file)), csv(written));
     std::ofstream(file) << jsonText(written).substr(0, 200);
     EXPECT_THROW(readResults(file), app::Complaint);
+    // Counts that no 32 bits hold.
+    for (const char* wrong : {"1e30", "-1", "4294967296", "1.5", "\"2\""}) {
+        std::string text = jsonText(written);
+        const size_t at = text.find("\"rounds\": ") + 10;
+        std::ofstream(file) << text.replace(at, text.find(',', at) - at, wrong);
+        EXPECT_THROW(readResults(file), app::Complaint) << wrong;
+    }
     std::filesystem::remove(file);
 }
 

@@ -97,7 +97,9 @@ TEST(Options, galleryIsWrittenToOutFolder) {
     const char* inside[] = {"obscura-evaluate", "--gallery", "--scene", "toasters", "--out", "some/folder"};
     EXPECT_EQ(parseOptions(6, inside)->page, "some/folder/gallery.html");
     const char* named[] = {"obscura-evaluate", "--gallery", "mine.html", "--scene", "toasters", "--out", "some/folder"};
-    EXPECT_EQ(parseOptions(7, named)->page, "mine.html");
+    EXPECT_EQ(parseOptions(7, named)->page, "some/folder/mine.html");
+    const char* elsewhere[] = {"obscura-evaluate", "--gallery", "./mine.html", "--scene", "toasters", "--out", "some/folder"};
+    EXPECT_EQ(parseOptions(7, elsewhere)->page, "./mine.html");
 }
 
 Baseline small() {

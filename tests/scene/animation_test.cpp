@@ -191,5 +191,47 @@ TEST(Morph, NodeWeightsOverride) {
     EXPECT_TRUE(contains(b.error(), "/nodes/0/weights")) << b.error();
 }
 
+// Four animations of one node each, as exporters write an object's actions, and one more that moves a node again.
+class Together : public testing::Test {
+protected:
+    static std::shared_ptr<const Model> model() {
+        GltfBuilder b;
+        b.triangle();
+        b.json["nodes"] = Json::array();
+        for (int i = 0; i < 4; ++i) {
+            b.json["nodes"].push_back({{"mesh", 0}, {"translation", {i, 0, 0}}});
+            b.json["animations"].push_back(move(b, i, "box" + std::to_string(i), 2.0f + float(i)));
+        }
+        b.json["animations"].push_back(move(b, 2, "again", 9.0f));
+        b.json["scenes"] = Json::array({{{"nodes", {0, 1, 2, 3}}}});
+        return b.load();
+    }
+    // From 0 to `seconds` up by as many metres.
+    static Json move(GltfBuilder& b, int node, const std::string& name, float seconds) {
+        return {{"name", name},
+            {"samplers", {{{"input", b.scalars({0, seconds})}, {"output", b.vec3({float(node), 0, 0, float(node), seconds, 0})}}}},
+            {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}};
+    }
+};
+
+TEST_F(Together, allPlayEachInItsOwnLoop) {
+    const auto m = model();
+    EXPECT_EQ(playing(*m, kAllAnimations), (std::vector<int>{0, 1, 2, 3})) << "the fifth moves what the third moves";
+    const Pose pose = evaluate(*m, kAllAnimations, 4.5f);
+    const float heights[] = {0.5f, 1.5f, 0.5f, 4.5f};  // 4.5 s in loops of 2, 3, 4 and 5 s
+    for (size_t i = 0; i < 4; ++i) near(glm::vec3(pose.world[i][3]), {float(i), heights[i], 0});
+}
+
+TEST_F(Together, oneOrNonePlaysIfChosen) {
+    const auto m = model();
+    const Pose one = evaluate(*m, 1, 1.0f), alternative = evaluate(*m, 4, 8.0f), none = evaluate(*m, kRestPose, 1.0f);
+    near(glm::vec3(one.world[1][3]), {1, 1, 0});
+    near(glm::vec3(one.world[0][3]), {0, 0, 0});
+    near(glm::vec3(alternative.world[2][3]), {2, 8, 0});
+    near(glm::vec3(none.world[1][3]), {1, 0, 0});
+    EXPECT_TRUE(playing(*m, 5).empty());
+    EXPECT_TRUE(playing(*m, kRestPose).empty());
+}
+
 }  // namespace
 }  // namespace obscura::scene::test

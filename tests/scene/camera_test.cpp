@@ -62,6 +62,19 @@ TEST(Camera, ViewLooksDownMinusZ) {
     EXPECT_NEAR((down * glm::vec4(1, -5, 3, 1)).z, -7.0f, 1e-5);
 }
 
+// Where a float's step is 4 m, or 0.1 m.
+TEST(Camera, ViewFromAfarKeepsItsDirection) {
+    Camera camera;
+    camera.eye = {1, 33554432, 3};
+    camera.target = {0, 0, 0};
+    const glm::mat4 down = camera.view();
+    EXPECT_NEAR(glm::determinant(glm::mat3(down)), 1.0f, 1e-5);
+    camera.eye = {1e6f, 1e6f, 1e6f};
+    camera.target = camera.eye + glm::vec3(3, 1, -2);
+    const glm::vec3 ahead = glm::mat3(camera.view()) * glm::normalize(glm::vec3(3, 1, -2));
+    EXPECT_NEAR(glm::length(ahead - glm::vec3(0, 0, -1)), 0.0f, 1e-6f);
+}
+
 TEST(Camera, FrameSeesTheBounds) {
     Bounds box;
     box.add({-1, 0, -2});
@@ -93,6 +106,40 @@ TEST(Camera, LensesArePlacedByNodes) {
     EXPECT_EQ(second.nearPlane, 0.25f);
 }
 
+// Lengths of a lens are scaled with the scene. Nodes' scales do not count.
+TEST(Camera, LensesAreScaledByThePlacement) {
+    GltfBuilder b;
+    b.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 250}, {"zfar", 8000}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 2000}, {"ymag", 3000}, {"znear", 0}, {"zfar", 10000}}}}};
+    b.json["nodes"] = {{{"camera", 0}, {"translation", {1000, 2000, 3000}}}, {{"scale", {7, 7, 7}}, {"children", {2}}}, {{"camera", 1}}};
+    b.json["scenes"] = Json::array({{{"nodes", {0, 1}}}});
+    const auto model = b.load();
+    glm::mat4 placement(0.001f);
+    placement[3][3] = 1.0f;
+    const Pose rest = evaluate(*model, kRestPose, 0);
+    const Camera perspective = lensCamera({.model = model, .placement = placement}, rest, 0);
+    EXPECT_NEAR(glm::length(perspective.eye - glm::vec3(1, 2, 3)), 0.0f, 1e-6f);
+    EXPECT_FLOAT_EQ(perspective.nearPlane, 0.25f);
+    EXPECT_FLOAT_EQ(perspective.farPlane, 8.0f);
+    const Camera flat = lensCamera({.model = model, .placement = placement}, rest, 1);
+    EXPECT_FLOAT_EQ(flat.orthoHalfHeight, 3.0f);
+    EXPECT_EQ(flat.nearPlane, 0.0f);
+    EXPECT_FLOAT_EQ(flat.farPlane, 10.0f);
+    const glm::mat4 m = flat.projection({600, 600}, {600, 600});
+    EXPECT_FLOAT_EQ(project(m, {0, 0, 0}).z, 1.0f);
+    EXPECT_NEAR(project(m, {0, 0, -10}).z, 0.0f, 1e-6f);
+}
+
+TEST(Camera, FiniteFarPlane) {
+    Camera camera;
+    camera.nearPlane = 0.5f;
+    camera.farPlane = 200.0f;
+    const glm::mat4 m = camera.projection({800, 600}, {800, 600});
+    EXPECT_FLOAT_EQ(project(m, {0, 0, -0.5f}).z, 1.0f);
+    EXPECT_NEAR(project(m, {0, 0, -200.0f}).z, 0.0f, 1e-7f);
+    EXPECT_LT(project(m, {0, 0, -201.0f}).z, 0.0f);
+}
+
 class CameraFile : public testing::Test {
 protected:
     void SetUp() override { m_file = fs::temp_directory_path() / ("obscura_path_" + std::to_string(getpid()) + ".json"); }
@@ -121,6 +168,8 @@ TEST_F(CameraFile, Camera) {
     EXPECT_TRUE(contains(errorOf(R"({"eye":[1,2,3],"target":[0,0,0],"fov":90})", loadCamera), "unknown field \"fov\""));
     EXPECT_TRUE(contains(errorOf(R"({"eye":[1,2],"target":[0,0,0]})", loadCamera), "/eye: must have 3 numbers"));
     EXPECT_TRUE(contains(errorOf("{", loadCamera), m_file.string()));
+    // So far that a float's squares overflow.
+    EXPECT_TRUE(contains(errorOf(R"({"eye":[1e30,2,3],"target":[0,0,0]})", loadCamera), "/eye/0: 1e+30 is out of range"));
 }
 
 constexpr const char* kPath = R"({"name":"round","scene":"toasters","duration":8,"loop":true,
@@ -206,6 +255,8 @@ TEST_F(CameraFile, PathErrorsNameTheField) {
     EXPECT_TRUE(contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,0,1]},{"time":2,"eye":[1,0,0],"target":[0,0,1]}]})"),
         "a loop's last key"));
     EXPECT_TRUE(contains(pathError("[]"), "must be an object"));
+    EXPECT_TRUE(
+        contains(pathError(R"({"keys":[{"time":0,"eye":[0,0,0],"target":[0,1e30,1]}]})"), "/keys/0/target/1: 1e+30 is out of range"));
 }
 
 }  // namespace

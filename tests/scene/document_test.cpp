@@ -149,5 +149,34 @@ TEST(Document, DamagedDracoIsRefused) {
     EXPECT_TRUE(contains(b.error(), "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression")) << b.error();
 }
 
+TEST(Document, AttributesOfExtensionsInUseAreIgnored) {
+    GltfBuilder b;
+    b.triangle();
+    const Json splats{{"POSITION", 0}, {"KHR_gaussian_splatting:OPACITY", b.scalars({1, 1, 1})}};
+    b.json["meshes"][0]["primitives"].push_back({{"mode", 0}, {"attributes", splats}});
+    b.json["extensionsUsed"] = {"KHR_gaussian_splatting", "KHR_texture_transform"};
+    const auto model = b.load();
+    EXPECT_EQ(model->triangleCount(), 1u);
+    ASSERT_EQ(model->extensions.size(), 2u);
+    EXPECT_EQ(model->extensions[0].name, "KHR_gaussian_splatting");
+    EXPECT_FALSE(model->extensions[0].read);
+    EXPECT_TRUE(model->extensions[1].read);
+    ASSERT_FALSE(model->warnings.empty());
+    EXPECT_TRUE(contains(model->warnings[0], "the extension KHR_gaussian_splatting is ignored"));
+    // Of an extension that the file does not name, or that it requires.
+    b.json["extensionsUsed"] = {"KHR_texture_transform"};
+    EXPECT_TRUE(contains(b.error(), "KHR_gaussian_splatting:OPACITY: is not a glTF attribute"));
+    b.json["extensionsUsed"] = b.json["extensionsRequired"] = {"KHR_gaussian_splatting"};
+    EXPECT_TRUE(contains(b.error(), "needs the extension KHR_gaussian_splatting"));
+}
+
+TEST(Document, VariantsAreListed) {
+    GltfBuilder b;
+    b.triangle();
+    b.json["extensionsUsed"] = {"KHR_materials_variants"};
+    b.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}, {{"name", "blue"}}};
+    EXPECT_EQ(b.load()->variants, (std::vector<std::string>{"red", "blue"}));
+}
+
 }  // namespace
 }  // namespace obscura::scene::test

@@ -1,6 +1,5 @@
 // The library without a GPU: falloffs, parameter tables, views from projection matrices.
 #include <algorithm>
-#include <clocale>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -40,19 +39,6 @@ TEST(Falloff, textIsReadBackAsTheSameFalloff) {
 }
 
 // A host may set a locale whose decimal point is a comma.
-TEST(Falloff, textDoesNotDependOnTheLocale) {
-    const std::string before = std::setlocale(LC_NUMERIC, nullptr);
-    if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8") && !std::setlocale(LC_NUMERIC, "fr_FR.UTF-8"))
-        GTEST_SKIP() << "no locale with a decimal comma is installed";
-    Falloff f;
-    const bool parsed = parseFalloff("quadratic:0.5", f);
-    const std::string text = falloffText(f);
-    std::setlocale(LC_NUMERIC, before.c_str());
-    EXPECT_TRUE(parsed);
-    EXPECT_FLOAT_EQ(f.length, 0.5f);
-    EXPECT_EQ(text, "quadratic:0.5");
-}
-
 TEST(Falloff, valuesByFormula) {
     EXPECT_FLOAT_EQ(evaluate({FalloffKind::exponential, 2.0f}, 1.0f), std::exp(-0.5f));
     EXPECT_FLOAT_EQ(evaluate({FalloffKind::linear, 2.0f}, 1.0f), 0.5f);

@@ -78,6 +78,16 @@ TEST(Modules, thePublicHeaderNeedsOnlyVulkan) {
         EXPECT_TRUE(header == "cstddef" || header == "cstdint" || header == "vulkan/vulkan_core.h") << header;
 }
 
+// json_text.h replaces bytes that are not UTF-8; the JSON library's own function throws on them.
+TEST(Modules, jsonIsWrittenByOneFunction) {
+    for (const char* folder : {"runtime", "game", "tools"})
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+            if (entry.path().extension() != ".cpp" || entry.path().string().find("/meshkit/") != std::string::npos) continue;
+            std::ifstream in(entry.path());
+            for (std::string line; std::getline(in, line);) EXPECT_EQ(line.find(".dump("), std::string::npos) << entry.path() << line;
+        }
+}
+
 TEST(Modules, eachHasAReadme) {
     for (const auto& entry : fs::directory_iterator(kRoot / "runtime"))
         EXPECT_TRUE(!entry.is_directory() || fs::exists(entry.path() / "README.md")) << entry.path();

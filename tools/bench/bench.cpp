@@ -13,6 +13,7 @@
 #include "measure/draw.h"
 #include "measure/references.h"
 #include "scene/hash.h"
+#include "scene/json_text.h"
 
 namespace obscura::bench {
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr uint32_t kMeasure = 1;  // version of the measurement; saved measurements of other versions are not resumed
+constexpr uint32_t kMeasure = 2;  // version of the measurement; saved measurements of other versions are not resumed
 
 constexpr double kFlickerStart = 4.0;  // s into the scene's flythrough, where the camera moves
 
@@ -174,7 +175,7 @@ private:
         for (const measure::ShotReference& reference : ground.references) {
             if (reference.falloff != cell.falloff->text) continue;
             const truth::Metrics m = truth::compare(drawing.visibility, reference.visibility, m_shots[cell.shot].frame.visibleMask());
-            cell.row.errors.push_back({reference.kind, m.raw.eA, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim});
+            if (m.pixels) cell.row.errors.push_back({reference.kind, m.raw.eA, m.raw.bias, m.raw.rmse, m.raw.p99, m.ssim});
         }
     }
 
@@ -194,6 +195,7 @@ private:
                     if (cell.candidate != &candidate || cell.falloff->text != falloff.text || cell.row.flicker) continue;
                     if (!found) {
                         const flythrough::Summary summary = summarize(flight.measure(candidate, flythrough::ownFilter(candidate)));
+                        if (summary.frames == 0) break;  // the flythrough shows only sky
                         found = Flicker{summary.flickerOfError, summary.referenceFlicker};
                     }
                     cell.row.flicker = found;
@@ -216,7 +218,7 @@ private:
             for (const app::Series& pass : cell.passes) line["times"].push_back({{"name", pass.name}, {"values", pass.values}});
             json["cells"].push_back(std::move(line));
         }
-        app::writeFile(m_file, json.dump() + "\n");
+        app::writeFile(m_file, scene::dump(json) + "\n");
     }
 
     // Loads the measurements of an earlier run with the same key and at most as many rounds.

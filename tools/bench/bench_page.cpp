@@ -3,6 +3,7 @@
 #include "front.h"
 #include "page.h"
 #include "scaling.h"
+#include "scene/json_text.h"
 
 namespace obscura::bench {
 
@@ -21,7 +22,7 @@ std::string benchPage(const Results& results) {
     for (const Fit& fit : fits(results))
         data["fits"].push_back({{"axis", fit.axis}, {"label", fit.label}, {"where", fit.where}, {"x", fit.x}, {"y", fit.y},
             {"exponent", fit.exponent}, {"error", fit.error}, {"factor", fit.factor}});
-    return app::page({"Obscura: error against cost", app::PageSource::Pictures::none, kPageHtml, kPageCss, kPageJs}, data.dump());
+    return app::page({"Obscura: error against cost", app::PageSource::Pictures::none, kPageHtml, kPageCss, kPageJs}, scene::dump(data));
 }
 
 }  // namespace obscura::bench

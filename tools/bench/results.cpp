@@ -7,6 +7,7 @@
 
 #include "app/complaint.h"
 #include "app/statistics.h"
+#include "scene/json_text.h"
 
 namespace obscura::bench {
 
@@ -54,10 +55,10 @@ Json toJson(const Row& r) {
 Row rowOf(const Json& json) {
     Row r;
     r.method = json.at("method"), r.preset = json.at("preset"), r.settings = json.at("settings"), r.baseline = json.at("baseline");
-    r.scene = json.at("scene"), r.camera = json.at("camera"), r.width = json.at("width"), r.height = json.at("height"),
-    r.falloff = json.at("falloff");
-    r.triangles = json.at("triangles"), r.reach = json.at("reach"), r.varied = json.at("varied"), r.samples = json.at("samples"),
-    r.bytes = json.at("bytes");
+    r.scene = json.at("scene"), r.camera = json.at("camera"), r.width = scene::count(json.at("width")),
+    r.height = scene::count(json.at("height")), r.falloff = json.at("falloff");
+    r.triangles = json.at("triangles").get_ref<const Json::number_unsigned_t&>(), r.reach = json.at("reach"), r.varied = json.at("varied"),
+    r.samples = json.at("samples"), r.bytes = json.at("bytes").get_ref<const Json::number_unsigned_t&>();
     const Json& ms = json.at("milliseconds");
     r.median = ms.at("median"), r.p95 = ms.at("p95"), r.frame = ms.at("frame");
     r.rounds = ms.at("rounds").get<std::vector<double>>();
@@ -79,7 +80,7 @@ std::string jsonText(const Results& results) {
         {"flickerSize", {results.flickerWidth, results.flickerHeight}}, {"gpu", results.gpu}, {"gpuCompiler", results.gpuCompiler},
         {"rows", Json::array()}};
     for (const Row& row : results.rows) json["rows"].push_back(toJson(row));
-    return json.dump(1) + "\n";
+    return scene::dump(json, 1) + "\n";
 }
 
 Results readResults(const std::filesystem::path& file) {
@@ -89,10 +90,11 @@ Results readResults(const std::filesystem::path& file) {
         const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
         Results results;
         results.device = json.at("device"), results.command = json.at("command"), results.guard = json.at("guard"),
-        results.frames = json.at("frames");
-        results.warmUp = json.at("warmUp"), results.rounds = json.at("rounds"), results.rays = json.at("rays");
-        results.flickerFrames = json.at("flickerFrames"), results.flickerWidth = json.at("flickerSize").at(0),
-        results.flickerHeight = json.at("flickerSize").at(1);
+        results.frames = scene::count(json.at("frames"));
+        results.warmUp = scene::count(json.at("warmUp")), results.rounds = scene::count(json.at("rounds")),
+        results.rays = scene::count(json.at("rays"));
+        results.flickerFrames = scene::count(json.at("flickerFrames")), results.flickerWidth = scene::count(json.at("flickerSize").at(0)),
+        results.flickerHeight = scene::count(json.at("flickerSize").at(1));
         results.gpu = json.value("gpu", ""), results.gpuCompiler = json.value("gpuCompiler", "");
         for (const Json& row : json.at("rows")) results.rows.push_back(rowOf(row));
         return results;

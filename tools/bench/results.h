@@ -59,8 +59,8 @@ struct Row {
     std::vector<PassTime> passes;
     double frame = 0.0;  // median of the passes that draw the frame for every method
 
-    uint64_t bytes = 0;  // device memory beyond that of the frame without obscurance
-    std::vector<ErrorRow> errors;
+    uint64_t bytes = 0;            // device memory beyond that of the frame without obscurance
+    std::vector<ErrorRow> errors;  // none if every pixel is sky
     std::optional<Flicker> flicker;
     std::optional<GpuCost> gpu;
     const ErrorRow* against(const std::string& reference) const;

@@ -4,6 +4,7 @@
 #include "app/page.h"
 #include "measure/false_colour.h"
 #include "page.h"
+#include "scene/json_text.h"
 
 namespace obscura::evaluate {
 
@@ -63,7 +64,7 @@ std::string galleryPage(const std::vector<ShotResult>& shots, const Options& opt
     data["shots"] = Json::array();
     for (const ShotResult& shot : shots) data["shots"].push_back(shotJson(shot, options, about));
 
-    return app::page({"Obscura: accuracy gallery", app::PageSource::Pictures::embedded, kPageHtml, kPageCss, kPageJs}, data.dump());
+    return app::page({"Obscura: accuracy gallery", app::PageSource::Pictures::embedded, kPageHtml, kPageCss, kPageJs}, scene::dump(data));
 }
 
 }  // namespace obscura::evaluate

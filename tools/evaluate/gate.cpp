@@ -1,13 +1,16 @@
 #include "gate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
 
 #include "app/complaint.h"
 #include "app/files.h"
+#include "app/statistics.h"
 #include "scene/json_file.h"
+#include "scene/json_text.h"
 
 namespace obscura::evaluate {
 
@@ -39,6 +42,8 @@ std::map<Cell, float> measureCells(const Options& options) {
     std::map<Cell, float> cells;
     measure::forEachShot(machine, options, [&](measure::Shot& shot) {
         const ShotResult result = measure(machine, shot, options);
+        if (result.empty())
+            throw app::Complaint(fmt::format("{} {}: {}; a baseline needs errors", result.scene, result.camera, result.remark));
         for (const Row& row : result.rows) {
             const measure::Candidate& candidate = options.candidates[result.drawn[row.drawn].candidate];
             const measure::ShotReference& reference = result.references[row.reference];
@@ -97,23 +102,23 @@ std::string baselineText(const Baseline& baseline) {
         "Mean absolute error of visibility. A cell may not worsen by more than `relative` of itself and `absolute`. Renew: "
         "obscura-evaluate --renew-baseline THIS";
     head["size"] = {baseline.size.x, baseline.size.y};
-    head["guard"] = std::stod(fmt::format("{:.6g}", baseline.guard));
+    head["guard"] = app::digits(baseline.guard);
     head["rays"] = baseline.rays;
     head["seed"] = baseline.seed;
-    head["relative"] = std::stod(fmt::format("{:.6g}", baseline.relative));
-    head["absolute"] = std::stod(fmt::format("{:.6g}", baseline.absolute));
+    head["relative"] = app::digits(baseline.relative);
+    head["absolute"] = app::digits(baseline.absolute);
     head["scenes"] = baseline.scenes;
     head["cameras"] = baseline.cameras;
     head["falloffs"] = baseline.falloffs;
     head["references"] = baseline.references;
     std::string text = "{\n";
-    for (const auto& [key, value] : head.items()) text += fmt::format("  {}: {},\n", Json(key).dump(), value.dump());
+    for (const auto& [key, value] : head.items()) text += fmt::format("  {}: {},\n", scene::dump(Json(key)), scene::dump(value));
     text += "  \"cells\": [";
     const char* separator = "\n";
     for (const auto& [cell, eA] : baseline.cells) {
         const Json line = {{"method", cell.method}, {"preset", cell.preset}, {"scene", cell.scene}, {"camera", cell.camera},
-            {"falloff", cell.falloff}, {"reference", cell.reference}, {"eA", std::stod(fmt::format("{:.5f}", eA))}};
-        text += separator + ("    " + line.dump());
+            {"falloff", cell.falloff}, {"reference", cell.reference}, {"eA", std::round(double(eA) * 1e5) / 1e5}};
+        text += separator + ("    " + scene::dump(line));
         separator = ",\n";
     }
     return text + "\n  ]\n}\n";

@@ -7,6 +7,7 @@
 #include "app/files.h"
 #include "gallery.h"
 #include "gate.h"
+#include "scene/json_text.h"
 
 namespace obscura::evaluate {
 namespace {
@@ -15,9 +16,9 @@ namespace fs = std::filesystem;
 
 // Outputs and inputs are checked before the first frame is drawn.
 void expectOutputs(const Options& options) {
+    if (!options.out.empty()) app::expectFolder(options.out);  // may hold the files
     for (const fs::path& file : {options.json, options.page, options.captureOut})
         if (!file.empty()) app::expectWritable(file);
-    if (!options.out.empty()) app::expectFolder(options.out);
 }
 
 // Removes the folder that was made for the results if the run fails.
@@ -48,7 +49,7 @@ int evaluateShots(const Options& options) {
     const std::string page = options.page.empty() ? "" : galleryPage(results, options, about);
 
     std::fputs(textTable(results, options, about).c_str(), stdout);
-    if (!options.json.empty()) app::writeFile(options.json, rowsJson(results, options, about).dump(2) + "\n");
+    if (!options.json.empty()) app::writeFile(options.json, scene::dump(rowsJson(results, options, about), 2) + "\n");
     if (!options.out.empty()) writeFolder(results, options, about);
     if (!options.captureOut.empty()) writeCaptures(results, options.captureOut);
     if (!options.page.empty()) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "app/progress.h"
 #include "app/statistics.h"
 
@@ -82,6 +84,12 @@ ShotResult measure(measure::Machine& machine, measure::Shot& shot, const Options
                 options.errorsOnly ? meanError(visibility, reference, regions[truth::Region::whole])
                                    : truth::compare(visibility, reference, regions)});
         }
+    }
+    if (result.empty()) {
+        const bool sampled = shot.frame.showsSurface();
+        result.remark += fmt::format("{}{}: no errors", result.remark.empty() ? "" : "; ",
+            sampled ? fmt::format("--every {} meets only sky", result.every)
+                    : fmt::format("no surface is nearer than {:g} m", shot.frame.skyDepth));
     }
     result.seconds.metrics = (app::now() - begun) * 1e-3;
     if (!options.captureOut.empty()) result.frame = std::move(shot.frame);

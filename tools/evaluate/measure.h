@@ -40,6 +40,7 @@ struct ShotResult {
     std::vector<Row> rows;  // by reference, falloff, candidate
     Seconds seconds;
     bool referencesFromCache = false;
+    bool empty() const { return !rows.empty() && rows.front().whole().pixels == 0; }  // no pixel was evaluated; `remark` says why
 };
 
 ShotResult measure(measure::Machine& machine, measure::Shot& shot, const Options& options);

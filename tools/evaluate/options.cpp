@@ -20,7 +20,7 @@ using app::Complaint;
 
 namespace {
 
-constexpr const char* kGallery = "gallery.html";  // default name of the page; inside --out if that is given
+constexpr const char* kGallery = "gallery.html";  // default name of the page
 
 measure::ReferenceChoice referenceOf(const std::vector<std::string>& words, const std::string& channel) {
     measure::ReferenceChoice choice;
@@ -64,7 +64,8 @@ void expectTogether(const Options& options, bool hasSceneOptions) {
                 : fmt::format("--capture {}: needs --camera FILE.json with its field of view and guard band", options.capture.string()));
     if (!options.capture.empty() && hasSceneOptions)
         throw Complaint(
-            "--capture: a captured frame has its own scene, size and time; leave out --scene, --size, --time, --guard and --skip-masked");
+            "--capture: a captured frame has its own scene, size and time; leave out --scene, --animation, --size, --time, --guard and "
+            "--skip-masked");
     if (options.capture.empty() && options.scenes.empty())
         throw Complaint("no frame: give --scene NAME, or --capture FRAME.exr with --camera FRAME.json");
     if (!options.capture.empty() && options.reference.world)
@@ -101,6 +102,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     measure::takeAll(cli.add_option("--camera", cameras,
         "own (the view of scenes.json), scene:N, path:FILE@SECONDS, path:@SECONDS (the scene's flythrough), FILE.json; several with "
         "commas"));
+    auto* animation = cli.add_option("--animation", options.animation, "Animation of the scenes: NAME or number, all together, or none")
+                          ->capture_default_str();
     auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (default: 0; on a flythrough the path's time)");
     auto* sizeOption =
         cli.add_option("--size", size, "WIDTHxHEIGHT in pixels, without guard band (default: 640x360; with --gallery 480x270)");
@@ -143,13 +146,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     cli.option_defaults()->group("Output");
     cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference");
-    cli.add_option("--out", options.out, "Folder for visibility (EXR, PNG), error pictures, references, metrics.json and metrics.md");
+    cli.add_option("--out", options.out,
+        "Folder for visibility (EXR, PNG), error pictures, references, metrics.json, metrics.md, and all files that are named without a "
+        "folder");
     cli.add_option("--capture-out", options.captureOut, "Write the frame as NAME.capture.exr and NAME.json");
-    auto* gallery = cli.add_option("--gallery", page,
-                           "One HTML page of every method on a list of scenes, cameras and falloffs (default: gallery.html, inside --out "
-                           "if that is given)")
-                        ->expected(0, 1)
-                        ->default_str(kGallery);
+    auto* gallery =
+        cli.add_option("--gallery", page, "One HTML page of every method on a list of scenes, cameras and falloffs (default: gallery.html)")
+            ->expected(0, 1)
+            ->default_str(kGallery);
     auto* checkOption = cli.add_option("--check-baseline", check, "Fail if a method's error exceeds this baseline");
     auto* renewOption =
         cli.add_option("--renew-baseline", renew, "Measure and write this baseline (with --method: only the cells of those methods)");
@@ -169,7 +173,6 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
 
     if (*gallery) {
         options.job = Job::gallery;
-        options.page = page == kGallery ? options.out / page : std::filesystem::path(page);
         if (cli.count("--method") == 0) chosen.methods = {"all"};
         if (falloffTexts.empty()) falloffTexts = {"quadratic:2", "exponential:1"};
         if (references.empty()) references = {"world", "screen"};
@@ -203,9 +206,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (*timeOption && !std::isfinite(time)) throw Complaint("--time: must be a finite number of seconds");
     if (*timeOption) options.time = time;
     if (!size.empty()) options.size = app::sizeOf(size);
+    if (*gallery) options.page = page;
+    for (fs::path* file : {&options.json, &options.page, &options.captureOut})
+        if (!file->empty() && !file->has_parent_path()) *file = options.out / *file;
     options.rays.cache = !noCache;
     if (!noCache) options.voxels.cache = scene::cacheFolder();
-    expectTogether(options, *scene || *timeOption || *sizeOption || *guard || *masked);
+    expectTogether(options, *scene || *animation || *timeOption || *sizeOption || *guard || *masked);
     return options;
 }
 

@@ -7,6 +7,7 @@
 #include "app/files.h"
 #include "measure/false_colour.h"
 #include "report.h"
+#include "scene/json_text.h"
 
 namespace obscura::evaluate {
 
@@ -75,7 +76,7 @@ void writeFolder(const std::vector<ShotResult>& shots, const Options& options, c
         }
         writeReferences(stem, shot);
     }
-    app::writeFile(options.out / "metrics.json", rowsJson(shots, options, about).dump(2) + "\n");
+    app::writeFile(options.out / "metrics.json", scene::dump(rowsJson(shots, options, about), 2) + "\n");
     app::writeFile(options.out / "metrics.md", markdown(shots, options, about));
 }
 

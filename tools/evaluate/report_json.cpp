@@ -15,7 +15,10 @@ void putErrors(Json& json, const truth::Errors& errors) {
     json["p99"] = app::digits(errors.p99);
 }
 
+// Without a pixel there are no errors.
 void putMetrics(Json& json, const truth::Metrics& metrics) {
+    json["pixels"] = metrics.pixels;
+    if (metrics.pixels == 0) return;
     putErrors(json, metrics.raw);
     if (metrics.perceptual) {
         json["ssim"] = app::digits(metrics.ssim);
@@ -24,7 +27,6 @@ void putMetrics(Json& json, const truth::Metrics& metrics) {
     }
     json["gamma"] = app::digits(metrics.gamma);
     putErrors(json["adjusted"], metrics.adjusted);
-    json["pixels"] = metrics.pixels;
 }
 
 }  // namespace

@@ -15,8 +15,22 @@ std::string shotTitle(const ShotResult& shot) {
         shot.every > 1 ? fmt::format(", evaluated at every {} x {} px", shot.every, shot.every) : "");
 }
 
+// A number of a row; a dash if no pixel was evaluated.
+std::string number(const truth::Metrics& metrics, const char* format, float value) {
+    return metrics.pixels ? fmt::format(fmt::runtime(format), value) : "-";
+}
 // SSIM and FLIP need neighbouring pixels: a dash with --every.
-std::string perceptual(const truth::Metrics& metrics, float value) { return metrics.perceptual ? fmt::format("{:.4f}", value) : "-"; }
+std::string perceptual(const truth::Metrics& metrics, float value) { return metrics.perceptual ? number(metrics, "{:.4f}", value) : "-"; }
+// Mean absolute error, share of small errors, bias, RMSE and 99th percentile as text.
+struct Numbers {
+    explicit Numbers(const truth::Metrics& m)
+        : eA(number(m, "{:.4f}", m.raw.eA)),
+          e5(number(m, "{:.3f}", m.raw.e5)),
+          bias(number(m, "{:+.4f}", m.raw.bias)),
+          rmse(number(m, "{:.4f}", m.raw.rmse)),
+          p99(number(m, "{:.3f}", m.raw.p99)) {}
+    std::string eA, e5, bias, rmse, p99;
+};
 
 std::string secondsLine(const ShotResult& shot) {
     return fmt::format("frame {:.1f} s, references {:.1f} s{}, methods {:.1f} s, metrics {:.1f} s", shot.seconds.frame,
@@ -54,11 +68,12 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             const Drawn& drawn = shot.drawn[row.drawn];
             const measure::Candidate& candidate = options.candidates[drawn.candidate];
             const truth::Metrics& m = row.whole();
-            text += fmt::format(
-                "| {} | {}{}{} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} | {} | {:.2f} | {:.4f} | {:.2f} |\n",
-                candidate.info().id, candidate.preset, candidate.settings.empty() ? "" : " ", fmt::join(candidate.settings, " "),
-                shot.references[row.reference].falloff, shot.references[row.reference].kind, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse,
-                m.raw.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), m.gamma, m.adjusted.eA, drawn.milliseconds);
+            const Numbers n(m);
+            text += fmt::format("| {} | {}{}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} |\n", candidate.info().id,
+                candidate.preset, candidate.settings.empty() ? "" : " ", fmt::join(candidate.settings, " "),
+                shot.references[row.reference].falloff, shot.references[row.reference].kind, n.eA, n.e5, n.bias, n.rmse, n.p99,
+                perceptual(m, m.ssim), perceptual(m, m.flipMean), number(m, "{:.2f}", m.gamma), number(m, "{:.4f}", m.adjusted.eA),
+                drawn.milliseconds);
         }
         text +=
             "\n| method | preset | falloff | reference | region | pixels | eA | e<5% | bias | rmse | p99 | ssim "
@@ -67,10 +82,10 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
             for (size_t i = 1; i < row.regions.size(); ++i) {
                 const truth::Metrics& m = row.regions[i].metrics;
                 const measure::Candidate& candidate = options.candidates[shot.drawn[row.drawn].candidate];
-                text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {:.3f} | {:+.4f} | {:.4f} | {:.3f} | {} |\n",
-                    candidate.info().id, candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
-                    truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, m.raw.eA, m.raw.e5, m.raw.bias, m.raw.rmse, m.raw.p99,
-                    perceptual(m, m.ssim));
+                const Numbers n(m);
+                text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", candidate.info().id,
+                    candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
+                    truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, n.eA, n.e5, n.bias, n.rmse, n.p99, perceptual(m, m.ssim));
             }
         text += "\n| method | preset | falloff | pass | ms |\n|---|---|---|---|--:|\n";
         for (const Drawn& drawn : shot.drawn) {
@@ -102,9 +117,10 @@ std::string textTable(const std::vector<ShotResult>& shots, const Options& optio
             const Drawn& drawn = shot.drawn[row.drawn];
             const measure::ShotReference& reference = shot.references[row.reference];
             const truth::Metrics& m = row.whole();
-            text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:7.4f} {:6.3f} {:+8.4f} {:7.4f} {:6.3f} {:>7} {:>7} {:8.2f}\n",
-                options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, m.raw.eA, m.raw.e5,
-                m.raw.bias, m.raw.rmse, m.raw.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), drawn.milliseconds);
+            const Numbers n(m);
+            text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>7} {:>6} {:>8} {:>7} {:>6} {:>7} {:>7} {:8.2f}\n",
+                options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, n.eA, n.e5, n.bias,
+                n.rmse, n.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), drawn.milliseconds);
         }
         text += referenceLines(shot, "  ") + "  " + secondsLine(shot) + "\n\n";
     }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/complaint.h"
+#include "scene/json_text.h"
 
 namespace obscura::flythrough {
 
@@ -29,10 +30,16 @@ std::string Chunk::name() const {
     return text;
 }
 
+std::string Summary::number(const char* format, double value, const char* none) const {
+    return frames ? fmt::format(fmt::runtime(format), value) : none;
+}
+
 Summary summarize(const Chunk& chunk) {
     Summary s;
     double steps = 0.0, worst = -1.0;
     for (const FrameRow& row : chunk.frames) {
+        if (row.empty) continue;
+        ++s.frames;
         s.eA += row.eA;
         s.bias += row.bias;
         if (row.eA > worst) worst = row.eA, s.worst = row.frame;
@@ -43,7 +50,7 @@ Summary summarize(const Chunk& chunk) {
         s.referenceFlicker += row.referenceFlicker;
         ++steps;
     }
-    const double frames = std::max<double>(1.0, double(chunk.frames.size()));
+    const double frames = std::max<double>(1.0, double(s.frames));
     s.eA /= frames, s.bias /= frames;
     if (steps > 0.0) s.difference /= steps, s.excess /= steps, s.flickerOfError /= steps, s.referenceFlicker /= steps;
     if (chunk.still) s.noiseMean = chunk.still->mean, s.noiseP99 = chunk.still->p99;
@@ -58,14 +65,15 @@ std::string chunkText(const Chunk& chunk) {
         {"height", chunk.height}, {"rays", chunk.rays}, {"first", chunk.first}, {"end", chunk.end}, {"pictures", chunk.pictures}};
     json["frames"] = Json::array();
     for (const FrameRow& r : chunk.frames)
-        json["frames"].push_back(
-            {r.frame, r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.flickerOfError, r.referenceFlicker});
+        json["frames"].push_back(r.empty ? Json{r.frame, r.time}
+                                         : Json{r.frame, r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference,
+                                               r.flickerOfError, r.referenceFlicker});
     json["events"] = Json::array();
     for (const EventRow& r : chunk.events) json["events"].push_back({r.frame, r.pixels, r.t90, r.ghost});
     if (chunk.still) json["static"] = {chunk.still->mean, chunk.still->p99};
     json["passes"] = Json::array();
     for (const PassRow& r : chunk.passes) json["passes"].push_back({r.name, r.median, r.p95});
-    return json.dump(1) + "\n";
+    return scene::dump(json, 1) + "\n";
 }
 
 std::optional<Chunk> readChunk(const std::filesystem::path& file) {
@@ -81,15 +89,19 @@ std::optional<Chunk> readChunk(const std::filesystem::path& file) {
         chunk.settings = json.at("settings");
         chunk.filter = json.at("filter");
         chunk.falloff = json.at("falloff");
-        chunk.width = json.at("width");
-        chunk.height = json.at("height");
-        chunk.rays = json.at("rays");
-        chunk.first = json.at("first");
-        chunk.end = json.at("end");
+        chunk.width = scene::count(json.at("width"));
+        chunk.height = scene::count(json.at("height"));
+        chunk.rays = scene::count(json.at("rays"));
+        chunk.first = scene::count(json.at("first"));
+        chunk.end = scene::count(json.at("end"));
         chunk.pictures = json.at("pictures");
         for (const Json& r : json.at("frames"))
-            chunk.frames.push_back({r.at(0), r.at(1), r.at(2), r.at(3), r.at(4), r.at(5), r.at(6), r.at(7), r.at(8), r.at(9)});
-        for (const Json& r : json.at("events")) chunk.events.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
+            if (r.size() == 2) chunk.frames.push_back({.frame = scene::count(r.at(0)), .time = r.at(1), .empty = true});
+            else
+                chunk.frames.push_back(
+                    {scene::count(r.at(0)), r.at(1), r.at(2), r.at(3), r.at(4), r.at(5), r.at(6), r.at(7), r.at(8), r.at(9)});
+        for (const Json& r : json.at("events"))
+            chunk.events.push_back({scene::count(r.at(0)), scene::count(r.at(1)), scene::count(r.at(2)), r.at(3)});
         if (json.contains("static")) chunk.still = StaticRow{json["static"].at(0), json["static"].at(1)};
         for (const Json& r : json.at("passes")) chunk.passes.push_back({r.at(0), r.at(1), r.at(2)});
         return chunk;
@@ -140,9 +152,11 @@ std::string framesCsv(const std::vector<Chunk>& chunks) {
         "{},frame,seconds,eA,bias,rmse,share,difference,reference_difference,excess_flicker,flicker_of_error,reference_flicker\n", kHead);
     for (const Chunk& chunk : chunks)
         for (const FrameRow& r : chunk.frames)
-            text += fmt::format("{},{},{:.6g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", head(chunk), r.frame,
-                r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.difference - r.referenceDifference,
-                r.flickerOfError, r.referenceFlicker);
+            if (r.empty) text += fmt::format("{},{},{:.6g},,,,,,,,,\n", head(chunk), r.frame, r.time);
+            else
+                text += fmt::format("{},{},{:.6g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", head(chunk), r.frame,
+                    r.time, r.eA, r.bias, r.rmse, r.share, r.difference, r.referenceDifference, r.difference - r.referenceDifference,
+                    r.flickerOfError, r.referenceFlicker);
     return text;
 }
 

@@ -17,6 +17,7 @@ struct FrameRow {
     // Change from the previous frame along motion (truth/stability.h), over the fraction `share` of pixels found in it. 0 in the first
     // frame.
     float share = 0.0f, difference = 0.0f, referenceDifference = 0.0f, flickerOfError = 0.0f, referenceFlicker = 0.0f;
+    bool empty = false;  // every pixel is sky: the row has no numbers
 };
 
 struct EventRow {
@@ -47,16 +48,18 @@ struct Chunk {
     std::string name() const;   // "teleport.hbao.temporal", safe as a file name
 };
 
-// Summary of a chunk: means over its frames, worst value over its events.
+// Summary of a chunk: means over its frames that are not empty, worst value over its events.
 struct Summary {
-    double eA = 0.0, bias = 0.0;                          // mean over frames
-    double difference = 0.0, excess = 0.0;                // mean D_A, mean F
-    double flickerOfError = 0.0, referenceFlicker = 0.0;  // mean F_e, mean F_R
-    double noiseMean = 0.0, noiseP99 = 0.0;               // static
-    uint32_t t90 = 0;                                     // worst event
-    double ghost = 0.0;                                   // summed over events
-    double milliseconds = 0.0;                            // sum of the medians of its passes
-    uint32_t worst = 0;                                   // frame of the largest eA
+    size_t frames = 0;                                                             // that are not empty; 0: all else but milliseconds is 0
+    double eA = 0.0, bias = 0.0;                                                   // mean over frames
+    double difference = 0.0, excess = 0.0;                                         // mean D_A, mean F
+    double flickerOfError = 0.0, referenceFlicker = 0.0;                           // mean F_e, mean F_R
+    double noiseMean = 0.0, noiseP99 = 0.0;                                        // static
+    uint32_t t90 = 0;                                                              // worst event
+    double ghost = 0.0;                                                            // summed over events
+    double milliseconds = 0.0;                                                     // sum of the medians of its passes
+    uint32_t worst = 0;                                                            // frame of the largest eA
+    std::string number(const char* format, double value, const char* none) const;  // as text; `none` if every frame is empty
 };
 Summary summarize(const Chunk& chunk);
 

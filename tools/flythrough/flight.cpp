@@ -24,7 +24,7 @@ using app::Complaint;
 
 namespace {
 
-constexpr uint32_t kMeasure = 2;  // version of the measurement; chunks of other versions are measured again
+constexpr uint32_t kMeasure = 3;  // version of the measurement; chunks of other versions are measured again
 constexpr uint32_t kStillWarmUp = 32, kStillFrames = 32;
 
 // A method uses shaders of its own folder and shared ones.
@@ -163,12 +163,12 @@ std::string Flight::keyOf(const measure::Candidate& candidate, const ao::Preset&
     for (uint32_t frame = 0; frame < m_settings.length; ++frame) {
         const scene::Camera camera = m_stage.cameraAt(frame);
         for (const glm::vec3& v : {camera.eye, camera.target, camera.up}) hash.add(v.x).add(v.y).add(v.z);
-        hash.add(camera.fovY).add(m_stage.worldTimeAt(frame));
+        hash.add(camera.fovY).add(camera.nearPlane).add(camera.farPlane).add(camera.orthoHalfHeight).add(m_stage.worldTimeAt(frame));
     }
     for (const Event& event : script.events)
         hash.add(event.frame).add(event.box).add(&event.size, sizeof(event.size)).add(&event.at, sizeof(event.at)).add(int(event.gone));
-    hash.add(m_geometry[0].frame.depth.data(), m_geometry[0].frame.depth.size() * sizeof(float));  // identifies the scene
-    for (const gpu::EmbeddedShader& shader : ao::shaders())                                        // identify the method
+    hash.add(m_stage.sceneHash()).add(script.animation);
+    for (const gpu::EmbeddedShader& shader : ao::shaders())  // identify the method
         if (mayRun(used, shader.name)) hash.add(shader.spirv.data(), shader.spirv.size_bytes());
     return hash.hex();
 }
@@ -238,10 +238,11 @@ Chunk Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter
             const double e = double(picture.values[i]) - double(m_references[frame].visibility.values[i]);
             error += e, absolute += std::fabs(e), square += e * e, ++pixels;
         }
+        row.empty = pixels == 0;
         if (pixels)
             row.bias = float(error / double(pixels)), row.eA = float(absolute / double(pixels)),
             row.rmse = float(std::sqrt(square / double(pixels)));
-        if (frame > 0) {
+        if (frame > 0 && pixels) {
             const truth::Correspondence way = truth::correspond(geometry.frame, m_geometry[frame - 1].frame, geometry.motion);
             const truth::Change change = truth::change(way, picture, pictures[frame - 1], m_references[frame], m_references[frame - 1]);
             row.share = way.share();
@@ -271,6 +272,11 @@ Chunk Flight::measure(const measure::Candidate& chosen, const ao::Preset& filter
     }
     for (const auto& [pass, series] : times) chunk.passes.push_back({pass, series.median(), series.p95()});
     return chunk;
+}
+
+bool Flight::showsSurface() const {
+    return std::any_of(m_geometry.begin() + m_settings.first, m_geometry.begin() + m_settings.end,
+        [](const Geometry& geometry) { return geometry.frame.showsSurface(); });
 }
 
 void Flight::writeReferencePictures() const {

@@ -39,6 +39,7 @@ public:
     Chunk empty(const measure::Candidate& candidate, const ao::Preset& filter) const;
     void writeReferencePictures() const;  // out/frames/NAME.reference
     const Script& script() const { return m_stage.script(); }
+    bool showsSurface() const;  // a pixel of a measured frame is not sky
 
 private:
     struct Geometry {

@@ -1,6 +1,7 @@
 #include "gate.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "app/files.h"
 #include "report.h"
 #include "scene/json_file.h"
+#include "scene/json_text.h"
 
 namespace obscura::flythrough {
 
@@ -34,6 +36,7 @@ std::map<FlickerKey, FlickerRow> measureRows(const FlickerBaseline& baseline, co
                 if (std::find(baseline.filters.begin(), baseline.filters.end(), filter.id) == baseline.filters.end()) continue;
                 const Chunk chunk = flight.measure(candidate, filter);
                 const Summary summary = summarize(chunk);
+                if (summary.frames == 0) throw app::Complaint(fmt::format("{}: shows only sky; a baseline needs surfaces", name));
                 rows[{chunk.method, chunk.preset, chunk.flythrough, chunk.filter}] = {
                     summary.flickerOfError, summary.noiseMean, summary.t90};
             }
@@ -79,14 +82,14 @@ std::string baselineText(const FlickerBaseline& baseline) {
         {"size", {baseline.size.x, baseline.size.y}}, {"length", baseline.length}, {"rays", baseline.rays}, {"relative", baseline.relative},
         {"absolute", baseline.absolute}, {"flythroughs", baseline.flythroughs}, {"filters", baseline.filters}};
     std::string text = "{\n";
-    for (const auto& [key, value] : head.items()) text += fmt::format("  {}: {},\n", Json(key).dump(), value.dump());
+    for (const auto& [key, value] : head.items()) text += fmt::format("  {}: {},\n", scene::dump(Json(key)), scene::dump(value));
     text += "  \"rows\": [";
     const char* separator = "\n";
     for (const auto& [key, row] : baseline.rows) {
-        const auto rounded = [](double v) { return std::stod(fmt::format("{:.6f}", v)); };
+        const auto rounded = [](double v) { return std::round(v * 1e6) / 1e6; };
         const Json line{{"method", std::get<0>(key)}, {"preset", std::get<1>(key)}, {"flythrough", std::get<2>(key)},
             {"filter", std::get<3>(key)}, {"flickerOfError", rounded(row.flickerOfError)}, {"noise", rounded(row.noise)}, {"t90", row.t90}};
-        text += separator + ("    " + line.dump());
+        text += separator + ("    " + scene::dump(line));
         separator = ",\n";
     }
     return text + "\n  ]\n}\n";

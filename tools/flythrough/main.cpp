@@ -35,8 +35,8 @@ int fly(const Options& options) {
     app::expectFolder(out / "parts");
     measure::Machine machine({options.device, options.validation, options.verbose});
     std::vector<Chunk> chunks;
-    for (const std::string& name : options.flythroughs) {
-        Flight flight(machine, findScript(name), options.settings);
+    for (const Script& script : options.scripts) {
+        Flight flight(machine, script, options.settings);
         if (options.settings.pictures) flight.writeReferencePictures();
         for (const measure::Candidate& candidate : options.candidates)
             for (const ao::Preset* filter : options.filters) {

@@ -53,18 +53,27 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "report.html. An interrupted run resumes with the same command.\n\n"
         "Examples:\n"
         "  obscura-flythrough --flythrough teleport --method hbao,horizon_split --out out/teleport\n"
+        "  obscura-flythrough --scene model.glb --camera orbit,scene:0 --method all --out out/model\n"
         "  obscura-flythrough --flythrough all --method all --print-jobs 8 --out /share/run | parallel\n"
         "  obscura-flythrough --merge /share/run/part-0,/share/run/part-1 --out /share/run/all");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     measure::CandidateOptions chosen;
     std::vector<std::string> filters{"raw", "spatial", "temporal"}, merged;
+    std::vector<std::string> flythroughs, scenes, cameras;
+    std::string animation = "all";
     std::string size, frames, falloff, out = "out/flythrough", check, renew;
     bool list = false, noPictures = false, noVideo = false, noCache = false;
     using measure::takeAll;
 
     cli.option_defaults()->group("Flythrough");
-    takeAll(cli.add_option("--flythrough", options.flythroughs,
+    takeAll(cli.add_option("--flythrough", flythroughs,
         "By name, several with commas, or all (content/flythroughs.json; --list prints them), or FILE.json, a path recorded by the game"));
+    takeAll(cli.add_option("--scene", scenes, "Instead: toasters, atrium, sponza, dragon, or glTF files; several with commas"));
+    auto* cameraOption = takeAll(cli.add_option("--camera", cameras,
+        "How --scene is seen: orbit (default), scene:N (the glTF's N-th camera, animated with it), path:FILE.json@SECONDS, "
+        "path:@SECONDS (the scene's flythrough), own, or FILE.json; several with commas"));
+    auto* animationOption =
+        cli.add_option("--animation", animation, "Animation of --scene: NAME or number, all together, or none")->capture_default_str();
     cli.add_option("--length", options.settings.length, "Frames of the whole flythrough")
         ->check(CLI::Range(2u, 100000u))
         ->capture_default_str();
@@ -124,14 +133,19 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         options.job = check.empty() ? Job::renewBaseline : Job::checkBaseline;
         options.baseline = check.empty() ? renew : check;
         if (cli.count("--method") == 0) chosen.methods = {"all"};
-    } else if (options.flythroughs.empty()) {
-        throw Complaint("no flythrough: give --flythrough NAME, or all (--list prints the names)");
+    } else if (flythroughs.empty() && scenes.empty()) {
+        throw Complaint("no flythrough: give --flythrough NAME, or all (--list prints the names), or --scene FILE.gltf");
     }
-    if (options.flythroughs == std::vector<std::string>{"all"}) {
-        options.flythroughs.clear();
-        for (const Script& script : scripts()) options.flythroughs.push_back(script.name);
+    if (scenes.empty() && (*cameraOption || *animationOption))
+        throw Complaint(fmt::format("{}: needs --scene; a flythrough has a camera of its own", *cameraOption ? "--camera" : "--animation"));
+    if (flythroughs == std::vector<std::string>{"all"}) {
+        flythroughs.clear();
+        for (const Script& script : scripts()) flythroughs.push_back(script.name);
     }
-    for (const std::string& flythrough : options.flythroughs) findScript(flythrough);
+    for (const std::string& flythrough : flythroughs) options.scripts.push_back(findScript(flythrough));
+    if (cameras.empty()) cameras = {"orbit"};
+    for (const std::string& scene : scenes)
+        for (const std::string& camera : cameras) options.scripts.push_back(sceneScript(scene, camera, animation));
     options.candidates = measure::candidates(chosen.methods, chosen.presets, chosen.allSets());
     for (const std::string& filter : filters) options.filters.push_back(&measure::resolvePreset("--modes " + filter, filter));
     if (*sizeOption) options.settings.size = app::sizeOf(size);

@@ -9,7 +9,7 @@ enum class Job { fly, merge, printJobs, checkBaseline, renewBaseline };
 
 struct Options {
     Job job = Job::fly;
-    std::vector<std::string> flythroughs;
+    std::vector<Script> scripts;
     std::vector<measure::Candidate> candidates;
     std::vector<const ao::Preset*> filters;  // of ao::resolvePresets()
     Settings settings;                       // out and pictures included

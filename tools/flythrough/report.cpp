@@ -14,6 +14,7 @@
 #include "app/page.h"
 #include "app/progress.h"
 #include "page.h"
+#include "scene/json_text.h"
 
 namespace obscura::flythrough {
 
@@ -54,9 +55,11 @@ std::string table(const std::vector<Chunk>& chunks) {
                 summarize(chunk).referenceFlicker, "method", width);
         }
         const Summary s = summarize(chunk);
-        text += fmt::format("  {:<{}}  {:<8}  {:.4f}  {:+.4f}   {:.4f}  {:+.4f}   {:.4f}   {:>6}  {:.5f}  {:.4f}  {:>3}  {:.4f}  {:7.2f}\n",
-            chunk.label(), width, chunk.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(raw, chunk, s, "-"),
-            s.noiseMean, s.noiseP99, chunk.events.empty() ? "-" : std::to_string(s.t90), s.ghost, s.milliseconds);
+        const auto number = [&](const char* format, double value) { return s.number(format, value, "-"); };
+        text += fmt::format("  {:<{}}  {:<8}  {:>6}  {:>7}   {:>6}  {:>7}   {:>6}   {:>6}  {:>7}  {:>6}  {:>3}  {:>6}  {:7.2f}\n",
+            chunk.label(), width, chunk.filter, number("{:.4f}", s.eA), number("{:+.4f}", s.bias), number("{:.4f}", s.difference),
+            number("{:+.4f}", s.excess), number("{:.4f}", s.flickerOfError), ratio(raw, chunk, s, "-"), number("{:.5f}", s.noiseMean),
+            number("{:.4f}", s.noiseP99), chunk.events.empty() ? "-" : std::to_string(s.t90), number("{:.4f}", s.ghost), s.milliseconds);
     }
     return text;
 }
@@ -76,9 +79,11 @@ std::string markdown(const std::vector<Chunk>& chunks) {
             flythrough = chunk.flythrough;
         }
         const bool lag = !chunk.events.empty();
-        text += fmt::format("| {} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.4f} | {} | {:.5f} | {} | {} | {:.2f} |\n", chunk.label(),
-            chunk.filter, s.eA, s.bias, s.difference, s.excess, s.flickerOfError, ratio(raw, chunk, s, ""), s.noiseMean,
-            lag ? std::to_string(s.t90) : "", lag ? fmt::format("{:.3f}", s.ghost) : "", s.milliseconds);
+        const auto number = [&](const char* format, double value) { return s.number(format, value, ""); };
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} |\n", chunk.label(), chunk.filter,
+            number("{:.4f}", s.eA), number("{:+.4f}", s.bias), number("{:.4f}", s.difference), number("{:+.4f}", s.excess),
+            number("{:.4f}", s.flickerOfError), ratio(raw, chunk, s, ""), number("{:.5f}", s.noiseMean), lag ? std::to_string(s.t90) : "",
+            lag ? fmt::format("{:.3f}", s.ghost) : "", s.milliseconds);
     }
     return text;
 }
@@ -89,17 +94,21 @@ Json summaryJson(const Chunk& chunk) {
     const Summary s = summarize(chunk);
     Json json{{"name", chunk.name()}, {"flythrough", chunk.flythrough}, {"method", chunk.method}, {"preset", chunk.preset},
         {"settings", chunk.settings}, {"label", chunk.label()}, {"filter", chunk.filter}, {"falloff", chunk.falloff},
-        {"width", chunk.width}, {"height", chunk.height}, {"rays", chunk.rays}, {"pictures", chunk.pictures}, {"eA", s.eA},
-        {"bias", s.bias}, {"difference", s.difference}, {"excessFlicker", s.excess}, {"flickerOfError", s.flickerOfError},
-        {"referenceFlicker", s.referenceFlicker}, {"noiseMean", s.noiseMean}, {"noiseP99", s.noiseP99}, {"milliseconds", s.milliseconds},
-        {"worstFrame", s.worst}};
+        {"width", chunk.width}, {"height", chunk.height}, {"rays", chunk.rays}, {"pictures", chunk.pictures},
+        {"milliseconds", s.milliseconds}, {"worstFrame", s.worst}};
+    if (s.frames)
+        json.update({{"eA", s.eA}, {"bias", s.bias}, {"difference", s.difference}, {"excessFlicker", s.excess},
+            {"flickerOfError", s.flickerOfError}, {"referenceFlicker", s.referenceFlicker}, {"noiseMean", s.noiseMean},
+            {"noiseP99", s.noiseP99}});
     if (!chunk.events.empty()) json["t90"] = s.t90, json["ghost"] = s.ghost;
     json["passes"] = Json::array();
     for (const PassRow& row : chunk.passes) json["passes"].push_back({{"name", row.name}, {"median", row.median}, {"p95", row.p95}});
     json["frames"] = Json::array();
     for (const FrameRow& r : chunk.frames)
-        json["frames"].push_back({{"frame", r.frame}, {"seconds", r.time}, {"eA", r.eA}, {"difference", r.difference},
-            {"excessFlicker", r.difference - r.referenceDifference}, {"flickerOfError", r.flickerOfError}});
+        if (r.empty) json["frames"].push_back({{"frame", r.frame}, {"seconds", r.time}});
+        else
+            json["frames"].push_back({{"frame", r.frame}, {"seconds", r.time}, {"eA", r.eA}, {"difference", r.difference},
+                {"excessFlicker", r.difference - r.referenceDifference}, {"flickerOfError", r.flickerOfError}});
     json["events"] = Json::array();
     for (const EventRow& r : chunk.events)
         json["events"].push_back({{"frame", r.frame}, {"pixels", r.pixels}, {"t90", r.t90}, {"ghost", r.ghost}});
@@ -135,10 +144,10 @@ void writeReport(const std::vector<Chunk>& chunks, const std::string& device, co
     app::writeFile(out / "passes.csv", passesCsv(chunks));
     Json json{{"device", device}, {"parts", Json::array()}};
     for (const Chunk& chunk : chunks) json["parts"].push_back(summaryJson(chunk));
-    app::writeFile(out / "report.json", json.dump(1) + "\n");
+    app::writeFile(out / "report.json", scene::dump(json, 1) + "\n");
     app::writeFile(out / "report.md", markdown(chunks));
     const app::PageSource page{"Obscura: flythroughs", app::PageSource::Pictures::files, kPageHtml, kPageCss, kPageJs};
-    app::writeFile(out / "report.html", app::page(page, json.dump()));
+    app::writeFile(out / "report.html", app::page(page, scene::dump(json)));
 }
 
 void writeVideos(const std::vector<Chunk>& chunks, const fs::path& out) {

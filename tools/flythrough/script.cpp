@@ -8,7 +8,9 @@
 #include "app/arguments.h"
 #include "app/complaint.h"
 #include "app/content.h"
+#include "measure/measurement.h"
 #include "scene/json_file.h"
+#include "scene/json_text.h"
 
 namespace obscura::flythrough {
 
@@ -40,7 +42,7 @@ Script scriptOf(const scene::JsonAt& at) {
         script.camera.emplace();
         script.camera->eye = scene::vector3(camera->at("eye"));
         script.camera->target = scene::vector3(camera->at("target"));
-        if (const auto fov = camera->find("verticalFovDegrees")) script.camera->fovY = float(glm::radians(fov->number(1.0, 170.0)));
+        if (const auto fov = camera->find("verticalFovDegrees")) script.camera->fovY = scene::fieldOfView(*fov);
     } else {
         script.path = at.at("path").text();
     }
@@ -109,7 +111,7 @@ Script recorded(const std::string& text) {
             fmt::format("{}: names no scene; add \"scene\": a name of content/scenes.json or a glTF file", script.path.string()));
     script.scene = path.scene;
     script.title = path.name;
-    script.name = script.path.filename().string();
+    script.name = scene::utf8(script.path.filename().string());
     script.name = script.name.substr(0, script.name.find('.'));
     script.start = path.keys.front().time;
     if (mark == std::string::npos) return script;
@@ -147,10 +149,53 @@ Script findScript(const std::string& name) {
         fmt::format("--flythrough {}: no such flythrough; {}, or the path of a recorded FILE.json", name, app::choices(name, names)));
 }
 
+Script sceneScript(const std::string& scene, const std::string& view, const std::string& animation) {
+    const app::SceneFile file = app::expectScene(scene);
+    Script script;
+    script.scene = scene;
+    script.view = view;
+    script.animation = animation;
+    std::string name = view;
+    if (view != "orbit") {
+        const measure::CameraChoice choice = measure::cameraOf(view);
+        using Kind = measure::CameraChoice::Kind;
+        if (choice.kind == Kind::path) {
+            script.path = choice.file.empty() && file.flythrough ? *file.flythrough : choice.file;
+            script.start = choice.at;
+        }
+        const std::filesystem::path needed = choice.kind == Kind::path ? script.path : choice.file;
+        std::error_code ignored;
+        if ((choice.kind == Kind::path || choice.kind == Kind::file) && !std::filesystem::is_regular_file(needed, ignored))
+            throw Complaint(fmt::format("--camera {}: no such file", view));
+        name = view.substr(view.find_last_of('/') + 1);
+    }
+    script.name = fmt::format("{}.{}", file.info.name, scene::utf8(name));
+    script.title = script.name;
+    return script;
+}
+
 Stage::Stage(const Script& script) : m_script(script) {
-    m_world.add({.model = scene::loadGltf(app::expectScene(script.scene).file)});
-    if (m_world.triangleCount() == 0) throw Complaint(fmt::format("{}: {} contains nothing to draw", script.name, script.scene));
-    if (!script.camera) m_path = scene::loadCameraPath(pathFile(script));
+    const app::SceneFile file = app::expectScene(script.scene);
+    app::PlacedScene placed = app::loadScene(file, script.animation);
+    const int lenses = scene::lensCount(*placed.instance.model);
+    m_world.add(std::move(placed.instance));
+    for (const std::string& remark : placed.remarks) fmt::print(stderr, "{}\n", app::oneLine(remark));
+    if (!script.view.empty()) {
+        const bool orbits = script.view == "orbit";
+        const measure::CameraChoice choice = orbits ? measure::CameraChoice() : measure::cameraOf(script.view);
+        using Kind = measure::CameraChoice::Kind;
+        const bool ownLens = !orbits && choice.kind == Kind::own && !file.named && lenses > 0;
+        if (choice.kind == Kind::lens && choice.lens >= lenses)
+            throw Complaint(fmt::format("--camera {}: {} has {} cameras; --camera orbit needs none", script.view, file.info.name, lenses));
+        if (choice.kind == Kind::lens || ownLens) m_lens = choice.lens;
+        else if (orbits) m_path = scene::orbit(placed.bounds);
+        else if (choice.kind == Kind::own) m_script.camera = file.named ? *file.camera() : scene::frame(placed.bounds);
+        else if (choice.kind == Kind::file) m_script.camera = scene::loadCamera(choice.file);
+        else m_path = scene::loadCameraPath(script.path);
+        if (!file.named) m_near = scene::frame(placed.bounds).nearPlane;
+    } else if (!script.camera) {
+        m_path = scene::loadCameraPath(pathFile(script));
+    }
     if (!script.events.empty()) m_box = unitBox();
 }
 
@@ -170,13 +215,22 @@ const scene::World& Stage::worldAt(uint32_t frame) {
         box = m_boxes.erase(box);
     }
     for (const auto& [name, event] : standing) {
-        if (!m_boxes.count(name)) m_boxes[name] = m_world.add({.model = m_box, .animation = -1});
+        if (!m_boxes.count(name)) m_boxes[name] = m_world.add({.model = m_box, .animation = scene::kRestPose});
         for (scene::Instance& instance : m_world.instances())
             if (instance.id == m_boxes[name]) instance.placement = glm::scale(glm::translate(glm::mat4(1.0f), event->at), event->size);
     }
     return m_world;
 }
 
-scene::Camera Stage::cameraAt(uint32_t frame) const { return m_script.camera ? *m_script.camera : m_path.at(m_script.timeAt(frame)); }
+scene::Camera Stage::cameraAt(uint32_t frame) const {
+    if (m_script.camera) return *m_script.camera;
+    if (m_lens) {
+        const scene::Instance& first = m_world.instances().front();
+        return scene::lensCamera(first, scene::evaluate(*first.model, first.animation, worldTimeAt(frame) + first.timeOffset), *m_lens);
+    }
+    scene::Camera camera = m_path.at(m_script.timeAt(frame));
+    if (m_near) camera.nearPlane = *m_near;
+    return camera;
+}
 
 }  // namespace obscura::flythrough

@@ -25,6 +25,8 @@ struct Script {
     std::string scene;                    // of content/scenes.json, or a glTF file
     std::optional<scene::Camera> camera;  // fixed camera
     std::filesystem::path path;           // or camera path
+    std::string view;                     // or a camera of any scene, as --camera names it
+    std::string animation = "all";        // of app::animationOf()
     float start = 0.0f;                   // s, of path and animations
     float framesPerSecond = 30.0f;
     bool animated = true;  // false: animations stand still at `start`
@@ -40,6 +42,9 @@ std::vector<Script> scripts();
 // names. The files of its scene and path exist.
 Script findScript(const std::string& name);
 
+// Any scene, by name or as a glTF file, seen by `view`: "orbit", or a camera as measure::cameraOf() reads it. Throws app::Complaint.
+Script sceneScript(const std::string& scene, const std::string& view, const std::string& animation);
+
 // A loaded script.
 class Stage {
 public:
@@ -48,11 +53,14 @@ public:
     scene::Camera cameraAt(uint32_t frame) const;
     float worldTimeAt(uint32_t frame) const { return m_script.animated ? m_script.timeAt(frame) : m_script.start; }
     const Script& script() const { return m_script; }
+    uint64_t sceneHash() const { return m_world.instances().front().model->hash; }
 
 private:
     Script m_script;
     scene::World m_world;
     scene::CameraPath m_path;
+    std::optional<int> m_lens;    // the scene's camera that films
+    std::optional<float> m_near;  // m, of paths through files
     std::shared_ptr<const scene::Model> m_box;
     std::map<std::string, uint32_t> m_boxes;  // instances of boxes in m_world, by name
 };

@@ -9,6 +9,7 @@
 
 #include "app/complaint.h"
 #include "app/statistics.h"
+#include "scene/json_text.h"
 
 namespace obscura::gpu_cost {
 namespace {
@@ -98,7 +99,7 @@ std::string jsonText(const std::vector<Table>& tables) {
         all.push_back({{"chip", table.chip}, {"driver", table.driver}, {"falloff", table.falloff}, {"size", {table.width, table.height}},
             {"rows", rows}});
     }
-    return all.dump(1) + "\n";
+    return scene::dump(all, 1) + "\n";
 }
 
 std::string baselineText(const std::vector<Table>& tables) {

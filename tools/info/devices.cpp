@@ -65,9 +65,9 @@ void prove(const Functions& vk, VkPhysicalDevice physical, uint32_t family, std:
     desc.log = onLine;
     desc.logUser = &missing;
     ao::Context* context = nullptr;
-    if (ao::create(desc, &context) == ao::Status::ok) {
+    if (ao::create(desc, &context) == ao::Result::ok) {
         for (const ao::MethodInfo* method : ao::methods())
-            if (ao::setMethod(context, method->id, {}) != ao::Status::ok)
+            if (ao::setMethod(context, method->id, {}) != ao::Result::ok)
                 missing.push_back(std::string("setMethod(") + method->id + ") failed");
     } else if (missing.empty()) {
         missing.push_back("obscura::ao::create failed");

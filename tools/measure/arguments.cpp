@@ -1,6 +1,7 @@
 #include "measure/arguments.h"
 
 #include "app/arguments.h"
+#include "scene/json_text.h"
 
 namespace obscura::measure {
 
@@ -39,7 +40,7 @@ std::string commandOf(const char* program, int argc, const char* const* argv) {
             command += " " + app::shellWord(word);
         else if (option == word) ++i;
     }
-    return command;
+    return scene::utf8(command);
 }
 
 }  // namespace obscura::measure

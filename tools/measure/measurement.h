@@ -43,6 +43,7 @@ struct Measurement {
     // Frames: a captured frame, or scenes x cameras.
     std::filesystem::path capture, captureCamera;
     std::vector<std::string> scenes;
+    std::string animation = "all";  // of app::animationOf()
     std::vector<CameraChoice> cameras;
     bool usualCameras = false;  // `cameras` are defaults: those that a scene lacks are skipped
     std::optional<float> time;  // seconds; empty: a flythrough's own time, else 0

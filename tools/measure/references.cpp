@@ -8,6 +8,7 @@
 
 #include "app/complaint.h"
 #include "app/progress.h"
+#include "scene/json_text.h"
 
 namespace obscura::measure {
 
@@ -81,7 +82,8 @@ void readStored(References& all, const Shot& shot, const Measurement& what) {
             if (const float a = obscurance.values[i]; !(a >= -0.001f && a <= 1.001f))
                 throw Complaint(fmt::format(
                     "{}: {} is {} at pixel ({}, {}); obscurance must be in [0, 1]", file, channel, a, i % visible.x, i / visible.x));
-        all.list.push_back({what.reference.file.filename().string() + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
+        all.list.push_back(
+            {scene::utf8(what.reference.file.filename().string()) + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/complaint.h"
 #include "measure/shot.h"
+#include "scene/json_text.h"
 
 namespace obscura::measure {
 
@@ -116,7 +117,7 @@ void captureShot(Machine& machine, const Measurement& what, const TakeShot& take
     expectFile("--capture", what.capture);
     expectFile("--camera", what.captureCamera);
     Shot shot;
-    shot.scene = what.capture.stem().stem().string();
+    shot.scene = scene::utf8(what.capture.stem().stem().string());
     shot.camera = "capture";
     shot.frame = Linked(what.capture, what.captureCamera).read();
     if (!shot.frame.hasNormals()) {

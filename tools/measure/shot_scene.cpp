@@ -6,6 +6,7 @@
 
 #include "app/complaint.h"
 #include "measure/shot.h"
+#include "scene/json_text.h"
 
 namespace obscura::measure {
 
@@ -117,12 +118,12 @@ void expectScenes(const Measurement& what) {
 
 size_t shotCount(const Measurement& what) { return what.capture.empty() ? what.scenes.size() * what.cameras.size() : 1; }
 
-LoadedScene::LoadedScene(Machine& machine, const std::string& name)
+LoadedScene::LoadedScene(Machine& machine, const std::string& name, const std::string& animation)
     : m_machine(machine), m_file(app::expectScene(name)), m_world(std::make_shared<scene::World>()) {
     const double begun = app::now();
-    m_world->add({.model = scene::loadGltf(m_file.file)});
-    if (m_world->triangleCount() == 0)
-        throw Complaint(fmt::format("--scene {}: contains nothing to draw; it needs at least one triangle", name));
+    app::PlacedScene placed = app::loadScene(m_file, animation);
+    m_world->add(std::move(placed.instance));
+    for (const std::string& remark : placed.remarks) fmt::print(stderr, "{}\n", app::oneLine(remark));
     if (machine.newRenderer().load(*m_world) != gpu::Status::ok)
         throw Complaint(fmt::format("{}: cannot be uploaded to {}", m_file.file.string(), machine.deviceName()), app::kFailed);
     m_seconds = (app::now() - begun) * 1e-3;
@@ -132,7 +133,7 @@ std::optional<Shot> LoadedScene::shot(const Measurement& what, const CameraChoic
     const double begun = app::now();
     Shot shot;
     shot.scene = m_file.info.name;
-    shot.camera = choice.text;
+    shot.camera = scene::utf8(choice.text);
     shot.time = timeOf(what, choice);
     const auto camera = cameraFor(choice, m_file, m_world.get(), shot.time, what.usualCameras);
     if (!camera) return std::nullopt;
@@ -157,7 +158,7 @@ std::optional<Shot> LoadedScene::shot(const Measurement& what, const CameraChoic
 
 void sceneShots(Machine& machine, const Measurement& what, const TakeShot& take) {
     for (const std::string& name : what.scenes) {
-        LoadedScene scene(machine, name);
+        LoadedScene scene(machine, name, what.animation);
         for (const CameraChoice& choice : what.cameras)
             if (auto shot = scene.shot(what, choice)) take(*shot);
     }

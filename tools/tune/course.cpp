@@ -9,6 +9,7 @@
 #include "app/complaint.h"
 #include "app/content.h"
 #include "scene/hash.h"
+#include "scene/json_text.h"
 
 namespace obscura::tune {
 
@@ -16,10 +17,15 @@ Place placeOf(const std::string& text, const char* option) {
     const size_t mark = text.rfind('@');
     const std::vector<float> at = mark == std::string::npos ? std::vector<float>() : app::numbers(text.substr(mark + 1), ',');
     if (at.size() != 1 || at[0] < 0.0f)
-        throw app::Complaint(fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough", option, text));
+        throw app::Complaint(
+            fmt::format("{} {}: write SCENE@SECONDS, a time on the scene's flythrough, or FILE.json@SECONDS", option, text));
+    if (text.find(".json@") != std::string::npos) {
+        flythrough::findScript(text);
+        return {text, scene::utf8(text)};
+    }
     const app::SceneFile file = app::expectScene(text.substr(0, mark));
     if (!file.flythrough) throw app::Complaint(fmt::format("{} {}: {} has no flythrough", option, text, file.info.name));
-    return {file.info.name, at[0], text};
+    return {fmt::format("{}@{:g}", file.flythrough->string(), at[0]), text};
 }
 
 Course::Course(measure::Machine& machine, const std::vector<Place>& places, const std::vector<measure::FalloffChoice>& falloffs,
@@ -29,8 +35,9 @@ Course::Course(measure::Machine& machine, const std::vector<Place>& places, cons
         for (const measure::FalloffChoice& falloff : falloffs) {
             flythrough::Settings with = settings;
             with.falloff = falloff;
-            const std::string script = fmt::format("{}@{:g}", app::expectScene(place.scene).flythrough->string(), place.at);
-            m_flights.push_back(std::make_unique<flythrough::Flight>(machine, flythrough::findScript(script), with));
+            m_flights.push_back(std::make_unique<flythrough::Flight>(machine, flythrough::findScript(place.script), with));
+            if (!m_flights.back()->showsSurface())
+                throw app::Complaint(fmt::format("{}: shows only sky, so there is no error to search by; name another place", place.text));
             m_names.push_back(place.text + " " + falloff.text);
             m_falloffs.push_back(&falloff);
         }

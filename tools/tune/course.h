@@ -8,10 +8,9 @@
 
 namespace obscura::tune {
 
-// "atrium@4": a scene, and the time on its flythrough at which a flight begins.
+// Where a flight begins: "atrium@4", a scene and a time on its flythrough, or "FILE.json@4", a recorded path.
 struct Place {
-    std::string scene;
-    double at = 0.0;  // s
+    std::string script;  // of flythrough::findScript()
     std::string text;
 };
 Place placeOf(const std::string& text, const char* option);  // throws app::Complaint

@@ -61,7 +61,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--seed", options.seed, "Seed of the search")->capture_default_str();
 
     cli.option_defaults()->group("Places");
-    takeAll(cli.add_option("--train", training, "SCENE@SECONDS on the scene's flythrough; several with commas")->capture_default_str());
+    takeAll(
+        cli.add_option(
+               "--train", training, "SCENE@SECONDS on the scene's flythrough, or FILE.json@SECONDS, a recorded path; several with commas")
+            ->capture_default_str());
     takeAll(cli.add_option("--held-out", heldOut, "Held-out places, on which the winner is measured; missing scenes are left out")
             ->capture_default_str());
     takeAll(cli.add_option("--falloff", falloffs, "KIND:LENGTH in metres, or ramp:START:END; several with commas")->capture_default_str());

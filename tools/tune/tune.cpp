@@ -15,6 +15,7 @@
 #include "app/statistics.h"
 #include "measure/draw.h"
 #include "scene/hash.h"
+#include "scene/json_text.h"
 #include "search.h"
 #include "space.h"
 
@@ -68,7 +69,7 @@ public:
             line.update(toJson(score));
             json["scores"].push_back(std::move(line));
         }
-        app::writeFile(m_file, json.dump() + "\n");
+        app::writeFile(m_file, scene::dump(json) + "\n");
         return m_scores.back().second;
     }
 
@@ -226,7 +227,7 @@ std::string jsonText(const Options& options, const std::vector<Tuned>& results) 
                 {"time", digits(t.score.time)}, {"objective", digits(t.objective)}});
         json["results"].push_back(std::move(line));
     }
-    return json.dump(1) + "\n";
+    return scene::dump(json, 1) + "\n";
 }
 
 }  // namespace obscura::tune

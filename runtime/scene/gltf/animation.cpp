@@ -30,6 +30,16 @@ Interpolation interpolationOf(const std::string& name) {
     return Interpolation::linear;
 }
 
+// Subtracts from the positions of the keys, not from their tangents.
+void shift(Channel& channel, const glm::dvec3& by) {
+    const size_t group = channel.interpolation == Interpolation::cubicSpline ? 9 : 3, first = group == 9 ? 3 : 0;
+    for (size_t key = 0; key + group <= channel.values.size(); key += group)
+        for (int axis = 0; axis < 3; ++axis) {
+            float& value = channel.values[key + first + size_t(axis)];
+            value = float(double(value) - by[axis]);
+        }
+}
+
 }  // namespace
 
 void addAnimations(Context& context, const Asset& asset, Model& model) {
@@ -54,6 +64,7 @@ void addAnimations(Context& context, const Asset& asset, Model& model) {
             channel.values = readFloats(context, asset, sampler.output);
             const size_t perKey = channel.values.size() / channel.times.size();
             channel.components = int(channel.interpolation == Interpolation::cubicSpline ? perKey / 3 : perKey);
+            if (channel.path == AnimatedPath::translation && !context.shifts.empty()) shift(channel, context.shifts[size_t(channel.node)]);
             animation.duration = std::max(animation.duration, channel.times.back());
             animation.channels.push_back(std::move(channel));
         }

@@ -85,8 +85,16 @@ void checkExtensions(Context& context, const JsonAt& root) {
         const JsonAt at = required->at(i);
         if (!supported(at.text())) at.fail(fmt::format("needs the extension {}, which is not supported; export without it", at.text()));
     }
-    for (size_t i = 0; i < names.size(); ++i)
+    for (size_t i = 0; i < names.size(); ++i) {
+        context.extensions.push_back({names[i], supported(names[i])});
         if (!supported(names[i])) context.warn(used->at(i).pointer(), fmt::format("the extension {} is ignored", names[i]));
+    }
+    constexpr const char* kVariants = "KHR_materials_variants";
+    const auto extensions = root.find("extensions");
+    if (!extensions || !extensions->expectObject().has(kVariants)) return;
+    const JsonAt variants = extensions->at(kVariants).at("variants").expectArray();
+    for (size_t i = 0; i < variants.size(); ++i)
+        context.variants.push_back(variants.at(i).has("name") ? variants.at(i).at("name").text() : fmt::format("variant {}", i));
 }
 
 void checkMeshopt(const JsonAt& view, size_t bufferCount) {

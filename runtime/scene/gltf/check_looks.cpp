@@ -64,6 +64,16 @@ bool endsInNumber(std::string_view name, std::string_view stem) {
                name.begin() + ptrdiff_t(stem.size()), name.end(), [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
 }
 
+// "_NAME", or "EXTENSION:NAME" of an extension that the file uses.
+bool isCustom(const JsonAt& root, const std::string& name) {
+    if (name.starts_with('_')) return true;
+    const size_t colon = name.find(':');
+    const auto used = root.find("extensionsUsed");
+    for (size_t i = 0; colon != name.npos && used && i < used->size(); ++i)
+        if (used->at(i).text() == name.substr(0, colon)) return true;
+    return false;
+}
+
 void checkAttribute(const JsonAt& root, const JsonAt& at, const std::string& name, uint64_t count) {
     // KHR_mesh_quantization allows every integer type. They are accepted without the extension too.
     if (name == "POSITION" || name == "NORMAL") checkAccessor(root, at, {"VEC3"}, {5126, 5120, 5121, 5122, 5123}, count);
@@ -72,7 +82,8 @@ void checkAttribute(const JsonAt& root, const JsonAt& at, const std::string& nam
     else if (endsInNumber(name, "COLOR_")) checkAccessor(root, at, {"VEC3", "VEC4"}, {5126, 5121, 5123}, count);
     else if (endsInNumber(name, "JOINTS_")) checkAccessor(root, at, {"VEC4"}, {5121, 5123}, count);
     else if (endsInNumber(name, "WEIGHTS_")) checkAccessor(root, at, {"VEC4"}, {5126, 5121, 5123}, count);
-    else if (name.empty() || name.front() != '_') at.fail("is not a glTF attribute; names of custom attributes start with an underscore");
+    else if (!isCustom(root, name))
+        at.fail("is not a glTF attribute; names of custom attributes start with an underscore, or with an extension in use and a colon");
     else at.index(countOf(root, "accessors"), "accessor");
 }
 

@@ -29,13 +29,15 @@ void checkCameras(const JsonAt& root) {
             const JsonAt lens = at.at("perspective").expectObject();
             lens.at("yfov").number(1e-6);
             const double near = lens.at("znear").number(kTiny);
-            if (const auto far = lens.find("zfar"); far && far->number(kTiny) <= near) far->fail("must be greater than znear");
+            if (const auto far = lens.find("zfar"); far && !(float(far->number(kTiny)) > float(near)))
+                far->fail("must be greater than znear");
             if (const auto aspect = lens.find("aspectRatio")) aspect->number(kTiny);
         } else if (type == "orthographic") {
             const JsonAt lens = at.at("orthographic").expectObject();
             for (const char* key : {"xmag", "ymag"})
                 if (lens.at(key).number() == 0) lens.at(key).fail("must not be zero");
-            if (lens.at("zfar").number(kTiny) <= lens.at("znear").number(0)) lens.at("zfar").fail("must be greater than znear");
+            if (!(float(lens.at("zfar").number(kTiny)) > float(lens.at("znear").number(0))))
+                lens.at("zfar").fail("must be greater than znear");
         } else {
             at.at("type").fail(fmt::format("\"{}\" is unknown; use perspective or orthographic", type));
         }

@@ -27,10 +27,13 @@ std::shared_ptr<const Model> load(gltf::Context& context, gltf::Bytes bytes, con
         gltf::addMaterials(context, asset, options.loadImages, *model);
         gltf::addMeshes(context, asset, *model);
         gltf::addNodes(context, asset, options.scene, *model);
+        gltf::moveToLocalOrigin(context, asset, *model);
         gltf::addAnimations(context, asset, *model);
         const uint8_t choice = uint8_t(options.scene + 1);
         context.addToHash({&choice, 1});
         model->hash = context.hash;
+        model->extensions = std::move(context.extensions);
+        model->variants = std::move(context.variants);
         model->warnings = std::move(context.warnings);
         return model;
     } catch (const Error&) {

@@ -73,10 +73,12 @@ Lens lensOf(Context& context, const tinygltf::Camera& from, const std::string& p
         }
         lens.aspect = float(from.perspective.aspectRatio);
         lens.nearPlane = float(from.perspective.znear);
+        lens.farPlane = float(from.perspective.zfar);
     } else {
         lens.halfHeight = std::abs(float(from.orthographic.ymag));
         lens.aspect = std::abs(float(from.orthographic.xmag / from.orthographic.ymag));
         lens.nearPlane = float(from.orthographic.znear);
+        lens.farPlane = float(from.orthographic.zfar);
     }
     return lens;
 }

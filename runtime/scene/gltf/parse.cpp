@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/gltf/stages.h"
+#include "scene/json_text.h"
 
 namespace obscura::scene::gltf {
 namespace {
@@ -136,7 +137,7 @@ Asset parse(Context& context, Document& document, bool withImages) {
     std::string error, warning;
     bool done = false;
     try {
-        const std::string text = json.dump();
+        const std::string text = dump(json);
         if (text.size() > 0xffffffffu) context.fail("", "has more than 4 GiB of JSON");
         done = loader.LoadASCIIFromString(asset.gltf.get(), &error, &warning, text.data(), unsigned(text.size()), "", 0);
     } catch (const Json::exception& exception) {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "scene/gltf/gltf.h"
@@ -38,7 +39,9 @@ struct Context {
     std::filesystem::path folder;  // of the model, canonical; empty: external files are refused
     size_t budget = 0;             // bytes that may still be decoded
     uint64_t hash = 14695981039346656037ull;
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings, variants;
+    std::vector<Extension> extensions;
+    std::vector<glm::dvec3> shifts;  // subtracted from the translation of each node; empty: none
 
     [[noreturn]] void fail(std::string_view pointer, std::string_view what) const;
     void warn(std::string_view pointer, std::string_view what);
@@ -122,5 +125,9 @@ void addBounds(Primitive& primitive);
 // nodes.cpp, animation.cpp
 void addNodes(Context& context, const Asset& asset, int scene, Model& model);
 void addAnimations(Context& context, const Asset& asset, Model& model);
+
+// local_origin.cpp: moves a scene that lies far from the file's origin, in double precision. After addMeshes() and addNodes(); fills
+// Context::shifts and Model::origin.
+void moveToLocalOrigin(Context& context, const Asset& asset, Model& model);
 
 }  // namespace obscura::scene::gltf

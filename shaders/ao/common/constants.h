@@ -4,6 +4,11 @@
 #include "shared/falloff.h"
 OBSCURA_SHARED_BEGIN
 
+struct Crop {  // crop.comp
+    ivec2 origin;  // px
+};
+OBSCURA_SHARED_SIZE(Crop, 8);
+
 struct Linearize {  // linearize.comp
     uint linear;  // 1: the source has linear depth already
 };
@@ -62,14 +67,16 @@ OBSCURA_SHARED_SIZE(SumColumns, 8);
 struct Reproject {  // temporal.comp
     vec4 previousFromEye[3];  // rows
     vec2 motionScale;         // to px
+    vec2 motionOffset;        // px
     float history;            // largest weight of the history
     float depthTolerance;     // relative
     float normalTolerance;    // cosine
     float clip;               // standard deviations
     float clipFloor;          // least deviation
     uint valid;               // 0: there is no history
+    uint unused[2];
 };
-OBSCURA_SHARED_SIZE(Reproject, 80);
+OBSCURA_SHARED_SIZE(Reproject, 96);
 
 struct Upsample {  // upsample_rows.comp and upsample_columns.comp
     int scale;     // image pixels per map pixel

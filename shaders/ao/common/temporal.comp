@@ -56,7 +56,8 @@ void main() {
     vec4 r0 = constants.previousFromEye[0], r1 = constants.previousFromEye[1], r2 = constants.previousFromEye[2];
     vec3 previous = vec3(dot(r0.xyz, here) + r0.w, dot(r1.xyz, here) + r1.w, dot(r2.xyz, here) + r2.w);
     vec3 previousNormal = vec3(dot(r0.xyz, n), dot(r1.xyz, n), dot(r2.xyz, n));
-    vec2 at = vec2(p) + texelFetch(motion, p + guard, 0).xy * constants.motionScale;  // in texel centres of the visible part
+    vec2 moved = texelFetch(motion, p + guard, 0).xy * constants.motionScale + constants.motionOffset;
+    vec2 at = vec2(p) + moved;  // in texel centres of the visible part
     // A moving receiver was elsewhere: the plane goes through its pixel of last frame instead.
     float previousDepth = -previous.z;
     float plane = dot(eyePosition(view, at + 0.5 + vec2(guard), previousDepth), previousNormal);

@@ -28,6 +28,7 @@
   const titleOf = name => name === REFERENCE ? `${state.reference} reference` : name;
   const rowOf = label => shot().rows.find(r => r.label === label && r.falloff === state.falloff && r.reference === state.reference);
   const rowsHere = () => shot().rows.filter(r => r.falloff === state.falloff && r.reference === state.reference);
+  const measured = rows => rows.filter(r => r.pixels);  // a view of sky alone has rows without errors
   const shownMethod = () => state.right !== REFERENCE ? state.right : state.left;  // the method whose error is shown
   const everyRow = data.shots.flatMap((s, index) => s.rows.map(row => ({...row, shot: index, all: row.milliseconds.all})));
 
@@ -113,7 +114,7 @@
     const numbers = row ?
         [
           ['eA', fixed(row.eA, 4)],
-          ['e<5%', `${fixed(100 * row.e5, 1)} %`],
+          ['e<5%', row.pixels ? `${fixed(100 * row.e5, 1)} %` : ''],
           ['bias', signed(row.bias, 4)],
           ['rmse', fixed(row.rmse, 4)],
           ['p99', fixed(row.p99, 3)],
@@ -195,7 +196,7 @@
     });
   }
   function framesChart(rows) {
-    const all = everyRow.filter(r => r.falloff === state.falloff && r.reference === state.reference);
+    const all = measured(everyRow).filter(r => r.falloff === state.falloff && r.reference === state.reference);
     const lines = rows.map(row => ({...row, values: all.filter(r => r.label === row.label)}));
     for (const line of lines) line.mean = line.values.reduce((sum, r) => sum + r.eA, 0) / line.values.length;
     lines.sort((a, b) => a.mean - b.mean);
@@ -268,10 +269,10 @@
     return root;
   }
   function drawCharts() {
-    const rows = rowsHere();
+    const rows = measured(rowsHere());
     const charts = {'chart-error': errorChart, 'chart-time': timeChart, 'chart-frames': framesChart, 'chart-passes': passesChart};
     for (const [id, make] of Object.entries(charts))
-      $(id).replaceChildren(rows.length ? make(rows) : element('p', {class: 'empty'}, 'Nothing was measured here.'));
+      $(id).replaceChildren(rows.length ? make(rows) : element('p', {class: 'empty'}, shot().remark || 'Nothing was measured here.'));
   }
 
   // ---- table ----
@@ -306,12 +307,12 @@
   }
   function drawTable() {
     const head = sortingHead(COLUMNS, state, key => sortTable($('table'), state, key, drawTable));
-    const rows = shownRows(), worst = Math.max(...rows.map(r => r.eA), 1e-6);
+    const rows = shownRows(), worst = Math.max(...measured(rows).map(r => r.eA), 1e-6);
     const cell = (row, [key, , kind], i) => {
       if (i === 0) return element('td', {class: 'text first'}, element('button', {type: 'button', onclick: () => show(row)}, row.label));
       if (kind === 'text') return element('td', {class: 'text'}, row[key]);
       const value = key === 'bias' ? signed(row.bias, kind) : fixed(row[key], kind);
-      return key === 'eA' ? element('td', {class: 'bar-cell', style: `--share:${(100 * row.eA / worst).toFixed(1)}%`}, value) :
+      return key === 'eA' ? element('td', {class: 'bar-cell', style: `--share:${(100 * (row.eA ?? 0) / worst).toFixed(1)}%`}, value) :
                             element('td', {}, value);
     };
     const chosen = row =>
@@ -361,6 +362,6 @@
   // The method with the least error on a frame; shown first.
   function bestOf(s) {
     const rows = s.rows.filter(r => r.falloff === s.references[0].falloff && r.reference === s.references[0].kind);
-    return rows.reduce((best, row) => row.eA < best.eA ? row : best, rows[0]).label;
+    return rows.reduce((best, row) => row.eA < (best.eA ?? Infinity) ? row : best, rows[0]).label;
   }
 })();

@@ -59,7 +59,7 @@ function summary() {
   for (const p of parts)
     for (const key of ['eA', 'flickerOfError']) {
       const k = p.flythrough + key;
-      best[k] = Math.min(best[k] ?? Infinity, p[key]);
+      best[k] = Math.min(best[k] ?? Infinity, p[key] ?? Infinity);
     }
   const body = make('tbody', undefined, table);
   for (const part of rows) {
@@ -85,8 +85,10 @@ function chart() {
   $('legend').textContent = '';
   const w = svg.clientWidth || 900, h = 320, left = 52, right = 12, top = 12, bottom = 26;
   svg.setAttribute('viewBox', `0 0 ${w} ${h}`);
-  const skip = key === 'eA' ? 0 : 1, rows = p => p.frames.filter(f => f.frame >= skip);
+  // Frames of sky alone have no numbers.
+  const skip = key === 'eA' ? 0 : 1, rows = p => p.frames.filter(f => f.frame >= skip && f[key] !== undefined);
   const all = list.flatMap(rows), low = Math.min(0, ...all.map(f => f[key])), high = Math.max(1e-6, ...all.map(f => f[key]));
+  if (!all.length) return;
   const first = Math.min(...all.map(f => f.frame)), last = Math.max(...all.map(f => f.frame));
   const x = f => left + (w - left - right) * (f - first) / Math.max(1, last - first),
         y = v => h - bottom - (h - top - bottom) * (v - low) / (high - low);
@@ -123,7 +125,9 @@ function show(frame) {
   $('frame').max = Math.max(...frames);
   $('frame').value = row.frame;
   $('number').textContent = row.frame;
-  $('caption').textContent = `frame ${row.frame}: eA ${row.eA.toFixed(4)}, flicker of error ${row.flickerOfError.toFixed(4)}`;
+  $('caption').textContent = row.eA === undefined ?
+      `frame ${row.frame}: no surface, so no numbers` :
+      `frame ${row.frame}: eA ${row.eA.toFixed(4)}, flicker of error ${row.flickerOfError.toFixed(4)}`;
   const file = String(row.frame).padStart(4, '0') + '.png';
   $('picture').src = chosen.pictures ? `${chosen.pictures}/${file}` : '';
   $('reference').src = chosen.pictures ? `frames/${chosen.flythrough}.reference/${file}` : '';

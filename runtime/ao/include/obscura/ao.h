@@ -6,7 +6,7 @@
 // object is made; descriptor sets come from existing pools. Recording uses the heap. Call record() outside rendering. It overwrites the
 // pipeline, descriptor sets and push constants of the compute bind point, and no other command state. It places the barriers that its own
 // reads need: inputs are read in compute shaders after all earlier commands, and are left in the layouts that you name. No exception leaves
-// the API; a failure is a Status and one line in your log. One thread uses a Context at a time. Contexts are independent: there is no
+// the API; a failure is a Result and one line in your log. One thread uses a Context at a time. Contexts are independent: there is no
 // global state. Strings, lists and descriptions are read during the call; handles stay yours.
 //
 // Space. Eye space is right-handed: camera at the origin, looking down -z, y up. Lengths are metres, or your unit if the falloff uses it
@@ -36,7 +36,7 @@
 namespace obscura::ao {
 
 // What became of a call; a log line says why it failed.
-enum class Status : uint8_t {
+enum class Result : uint8_t {
     ok,           // done
     invalid,      // an argument breaks this header's contract
     unsupported,  // the device cannot do it
@@ -190,7 +190,7 @@ struct DeviceDesc {
 
 // A device and the method set on it; opaque.
 struct Context;
-OBSCURA_API Status create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
+OBSCURA_API Result create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
 OBSCURA_API void destroy(Context* context) noexcept;  // before the device, after the GPU has finished its frames; null is ignored
 
 // What setMethod() sets.
@@ -200,18 +200,20 @@ struct MethodSettings {
     Falloff falloff;                 // by which every method counts occluders
     const char* resolve = nullptr;   // of resolvePresets(), replaces settings of the preset; null: as the preset says
 };
-// Selects the method of the next record() and makes its pipelines. Unknown ids are Status::invalid, with a log line that lists the known
+// Selects the method of the next record() and makes its pipelines. Unknown ids are Result::invalid, with a log line that lists the known
 // ones; values out of range are clamped. On failure the method set before stays.
-OBSCURA_API Status setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
+OBSCURA_API Result setMethod(Context* context, const char* id, const MethodSettings& settings) noexcept;
 
 // ---- Frames ---------------------------------------------------------------------------------------------------------
 
 // An input image.
 struct ImageView {
     VkImage image = VK_NULL_HANDLE;                    // yours; valid until the GPU has finished the frame
-    VkImageView view = VK_NULL_HANDLE;                 // 2D, mip 0; of depth formats the depth aspect only
+    VkImageView view = VK_NULL_HANDLE;                 // 2D, one mip and layer; of depth formats the depth aspect only
     VkFormat format = VK_FORMAT_UNDEFINED;             // of the view
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // on entry and on return; not UNDEFINED
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // of that mip and layer, on entry and on return; not UNDEFINED
+    uint32_t mip = 0;                                  // of `image`, which the view shows
+    uint32_t layer = 0;                                // of `image`, which the view shows
 };
 
 // What a depth image holds.
@@ -263,11 +265,13 @@ struct DepthLayers {
     VkExtent2D secondSize{};  // Frame::size, or half of it rounded up: then texel p belongs to pixel 2 p
 };
 
-// What record() reads. Images may be larger than `size`: their upper left part is read.
+// What record() reads. Images may be larger than `size`: the part of them that begins at `origin` is read, and nothing outside it.
 struct Frame {
     VkExtent2D size{};          // px, of depth and normals, guard band included
     VkExtent2D guard{};         // px on each side that are read but not shown: visible = size - 2 guard. Multiples of 16 are fastest
-    float projection[16] = {};  // eye -> clip space of the whole image. The depth convention is read from it: perspective or orthographic,
+    VkOffset2D origin{};        // px, where that part begins in every image, as a player's in a split screen. Not 0: the part is copied
+                                // first. layers.second of half size begins at half of it, so it must be even then
+    float projection[16] = {};  // eye -> clip space of that part. The depth convention is read from it: perspective or orthographic,
                                 // reversed or not, finite or infinite, off-centre, y up or down
     float eyeFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // rigid; used by world normals and by history
     ImageView depth;                          // device: D16, D24, D32 or R32F; linear: R32F. Sampled usage
@@ -281,17 +285,20 @@ struct Frame {
     float motionScale[2] = {1, 1};  // motion * motionScale = px from this pixel to last frame's position, y down. Motion in UV:
                                     // {width, height}; in NDC with y up: {width / 2, -height / 2}; pointing from last frame to this:
                                     // negated
-    bool cut = false;               // camera cut: history is discarded this frame
-    DepthLayers layers;             // optional
-    Volume volume;                  // optional
-    float skyDepth = 0.0f;          // metres: depths from here on are sky; 0: the far plane of `projection`
-    uint64_t index = 0;             // frame number: with `temporal`, selects this frame's rotation of the samples. Add 1 each frame
+    // px, x right, y down: how far the jitter of temporal anti-aliasing in `projection` moves the image this frame, if `motion` leaves it
+    // out. 0: there is no jitter, or `motion` contains it.
+    float jitter[2] = {0, 0};
+    bool cut = false;       // camera cut: history is discarded this frame
+    DepthLayers layers;     // optional
+    Volume volume;          // optional
+    float skyDepth = 0.0f;  // metres: depths from here on are sky; 0: the far plane of `projection`
+    uint64_t index = 0;     // frame number: with `temporal`, selects this frame's rotation of the samples. Add 1 each frame
 };
 
 // What record() gives. The image is the context's. It keeps its contents until framesInFlight more frames have been recorded; you may
 // leave it in any layout. (Bent normals would become a flag in MethodInfo and a second image here.)
 struct Output {
-    Status status = Status::invalid;    // not ok: nothing was recorded, the handles are null, a log line says why
+    Result status = Result::invalid;    // not ok: nothing was recorded, the handles are null, a log line says why
                                         // (outOfMemory: some commands may have been recorded; discard the command buffer)
     VkImage image = VK_NULL_HANDLE;     // DeviceDesc::format, the visible size; usage sampled, transfer source and destination
     VkImageView view = VK_NULL_HANDLE;  // 2D, one mip

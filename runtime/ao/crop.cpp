@@ -1,0 +1,26 @@
+#include "ao/crop.h"
+
+#include "ao/common/constants.h"
+
+namespace obscura::ao {
+
+graph::ImageId Crop::add(gpu::Device& device, const gpu::ShaderLibrary& shaders, graph::Graph& graph, graph::ImageId source,
+    VkOffset2D origin, VkExtent2D size, Texel texel) {
+    constexpr struct {
+        const char* shader;
+        VkFormat format;
+    } kKinds[] = {{"ao/common/crop.comp", VK_FORMAT_R32G32_SFLOAT}, {"ao/common/crop.comp:FOUR", VK_FORMAT_R32G32B32A32_SFLOAT},
+        {"ao/common/crop.comp:INTEGER", VK_FORMAT_R32_UINT}};
+    const auto& kind = kKinds[size_t(texel)];
+    gpu::Program& program = m_programs[size_t(texel)];
+    if (!program && gpu::Program::compute(device, shaders, kind.shader, {}, program) != gpu::Status::ok) return {};
+    const graph::ImageId part = graph.image("cropped", {kind.format, size.width, size.height});
+    graph.pass("prepare.crop", program)
+        .read(source)
+        .write(part)
+        .constants(shared::Crop{{origin.x, origin.y}})
+        .dispatch(size.width, size.height);
+    return part;
+}
+
+}  // namespace obscura::ao

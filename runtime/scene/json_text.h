@@ -1,0 +1,28 @@
+// Text of JSON and of names, always UTF-8; counts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace obscura::scene {
+
+// A JSON value as text; indent -1: on one line. Bytes that are not UTF-8, which names of files may have, become U+FFFD.
+template <class Json>
+std::string dump(const Json& json, int indent = -1) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+// A whole number from 0 on, of 32 bits; throws the JSON library's type_error for any other value.
+template <class Json>
+uint32_t count(const Json& json) {
+    const auto number = json.template get_ref<const typename Json::number_unsigned_t&>();
+    return number <= UINT32_MAX ? uint32_t(number) : json.at("a smaller number").template get<uint32_t>();  // throws: it has no members
+}
+
+// A name for reports: bytes that are not UTF-8 become U+FFFD.
+inline std::string utf8(std::string_view name) { return nlohmann::json::parse(dump(nlohmann::json(name))).get<std::string>(); }
+
+}  // namespace obscura::scene
