@@ -34,7 +34,7 @@ namespace obscura::ao::layered {
 namespace {
 
 const Parameter kParameters[] = {
-    {"slices", "", 1, 32, 8, true, {},
+    {"slices", "", 1, 32, 32, true, {},
         "Slices of the hemisphere around the view ray, shared out over a tile. Cost grows with slices x steps. Too few: noise."},
     {"steps", "", 1, 64, 12, true, {},
         "Samples to each side of a slice, each for a stratum out to the falloff's reach. Cost grows with slices x steps. Too few: thin "
@@ -50,18 +50,18 @@ const Parameter kParameters[] = {
     {"map", "px", 1, 3, 1, true, {},
         "Image pixels per pixel of the map, each way. 2 costs a quarter of 1 and gathers over twice the width. Too high: small objects "
         "lose their occlusion."},
-    {kInterleave.id, "", 0, 3, 1, true, {kInterleaves, 4}, kInterleave.sentence},
+    {kInterleave.id, "", 0, 3, 3, true, {kInterleaves, 4}, kInterleave.sentence},
 };
-const Setting kLow[] = {{"steps", 9}, {"map", 3}};
-const Setting kMedium[] = {{"slices", 4}, {"steps", 14}, {"map", 2}};
-const Setting kHigh[] = {{"map", 2}};
-const Setting kUltra[] = {{"steps", 22}, {"depth_layers", float(LayerMode::second)}, {"map", 2}};
+const Setting kLow[] = {{"slices", 8}, {"steps", 9}, {"interleave", 1}, {"map", 3}};
+const Setting kMedium[] = {{"slices", 4}, {"steps", 13}, {"interleave", 1}, {"map", 2}};
+const Setting kHigh[] = {{"slices", 8}, {"interleave", 1}, {"map", 2}};
+const Setting kUltra[] = {{"slices", 8}, {"steps", 22}, {"depth_layers", float(LayerMode::second)}, {"interleave", 1}, {"map", 2}};
 const Setting kReference[] = {{"slices", 16}, {"steps", 32}, {"depth_layers", float(LayerMode::second)}, {"interleave", 0}};
 const Preset kPresets[] = {
     {"default", "48 samples per pixel, thickness: one more geometry pass. The calmest.", {}},
     {"low", "36 samples per 3x3 pixels, thickness. No dearer on a GPU than XeGTAO's preset of that name, as the three below.",
         {kLow, std::size(kLow)}},
-    {"medium", "28 samples per 2x2 pixels, thickness.", {kMedium, std::size(kMedium)}},
+    {"medium", "26 samples per 2x2 pixels, thickness.", {kMedium, std::size(kMedium)}},
     {"high", "48 samples per 2x2 pixels, thickness.", {kHigh, std::size(kHigh)}},
     {"ultra", "88 samples per 2x2 pixels, thickness and a second surface.", {kUltra, std::size(kUltra)}},
     {"reference", "1024 samples per pixel, not interleaved: the limit of what the depth layers can give.",
