@@ -17,6 +17,7 @@ struct View {
     std::string camera, options;  // the camera of a file; more options of the programs that have them
     GltfBuilder (*scene)();
 };
+void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
 
 GltfBuilder room() { return roomScene(); }
 GltfBuilder masked() {

@@ -11,6 +11,7 @@ struct Name {
     const char* what;
     std::string bytes;
 };
+void PrintTo(const Name& name, std::ostream* out) { *out << name.what; }
 const Name kNames[] = {{"latin1",
                            "stra\xdf"
                            "e"},
