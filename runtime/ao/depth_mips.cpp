@@ -11,8 +11,8 @@ Status DepthMips::create(gpu::Device& device, const gpu::ShaderLibrary& shaders,
 }
 
 gpu::ImageDesc DepthMips::desc(VkFormat format, shared::uvec2 size) {
-    const uint32_t width = (size.x + 15) & ~15u, height = (size.y + 15) & ~15u;
-    return {format, width, height + height / 16 * 15};
+    const shared::uvec2 level0 = padded(size);
+    return {format, level0.x, level0.y + level0.y / 16 * 15};
 }
 
 graph::ImageId DepthMips::add(graph::Graph& graph, const Inputs& inputs, const char* passName, float range, float fade) {

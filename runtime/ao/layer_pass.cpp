@@ -20,6 +20,7 @@ LayerPackInputs layerPackInputs(graph::Graph& graph, const Inputs& inputs, float
 
 graph::ImageId LayerPass::add(graph::Graph& graph, const Inputs& inputs, float sheet, Layers layers) {
     const bool one = layers == Layers::one;
+    const shared::uvec2 level0 = DepthMips::padded(inputs.view.size);  // every pixel writes all its texels
     const gpu::ImageDesc desc = DepthMips::desc(one ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT, inputs.view.size);
     const LayerPackInputs packing = layerPackInputs(graph, inputs, sheet, one);
     const graph::ImageId result = graph.image("packed layers", desc);
@@ -31,7 +32,7 @@ graph::ImageId LayerPass::add(graph::Graph& graph, const Inputs& inputs, float s
         .read(packing.second)
         .write(result)
         .constants(packing.constants)
-        .dispatch((inputs.view.size.x + 15) & ~15u, (inputs.view.size.y + 15) & ~15u);
+        .dispatch(level0.x, level0.y);
     return result;
 }
 

@@ -15,11 +15,12 @@ std::string dump(const Json& json, int indent = -1) {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-// A whole number from 0 on, of 32 bits; throws the JSON library's type_error for any other value.
+// A whole number from 0 on, of 32 bits; throws an exception of the JSON library for any other value.
 template <class Json>
 uint32_t count(const Json& json) {
     const auto number = json.template get_ref<const typename Json::number_unsigned_t&>();
-    return number <= UINT32_MAX ? uint32_t(number) : json.at("a smaller number").template get<uint32_t>();  // throws: it has no members
+    if (number > UINT32_MAX) throw Json::out_of_range::create(406, "number above 32 bits", &json);
+    return uint32_t(number);
 }
 
 // A name for reports: bytes that are not UTF-8 become U+FFFD.

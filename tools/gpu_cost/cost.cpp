@@ -76,14 +76,13 @@ double fetchesIn(const std::string& assembly) {
     return double(std::distance(std::sregex_iterator(assembly.begin(), assembly.end(), kLoad), std::sregex_iterator()));
 }
 
-// Whether a branch leads back to a block before it, or is too long to say where it leads.
+// Whether a branch leads back to a block before it.
 bool hasLoop(const std::string& assembly) {
     static const std::regex kLabel("^BB(\\d+):"), kBranch("s_c?branch\\w* BB(\\d+)");
     std::istringstream in(assembly);
     int block = -1;
     std::smatch match;
     for (std::string line; std::getline(in, line);) {
-        if (line.find("s_setpc") != std::string::npos) return true;
         if (std::regex_search(line, match, kLabel)) block = std::stoi(match[1]);
         if (std::regex_search(line, match, kBranch) && std::stoi(match[1]) <= block) return true;
     }

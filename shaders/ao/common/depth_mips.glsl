@@ -6,8 +6,15 @@
 const int kDepthLevels = 5;
 
 ivec2 paddedSize(uvec2 size) { return ivec2(size + 15u) & ~15; }
-// First row of a level; the texel of a level that contains pixel q.
-int levelRow(ivec2 padded, int level) { return 2 * padded.y - (2 * padded.y >> level); }
-ivec2 mipTexel(ivec2 padded, ivec2 q, int level) { return (q >> level) + ivec2(0, levelRow(padded, level)); }
+// The texel of a level that contains pixel q. Level n begins at row end - (end >> n), where `end` is the row that the levels converge to.
+ivec2 mipTexel(ivec2 padded, ivec2 q, int level) {
+    int end = 2 * padded.y;
+    return (q >> level) + ivec2(0, end - (end >> level));
+}
+// The same in one instruction less where the level differs between invocations, and more where it does not.
+ivec2 mipTexelOfSample(ivec2 padded, ivec2 q, int level) {
+    int end = 2 * padded.y;
+    return ivec2(q.x >> level, (q.y - end >> level) + end);
+}
 
 #endif

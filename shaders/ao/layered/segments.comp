@@ -59,7 +59,7 @@ void main() {
     }
     vec2 noise = fract(tileNoise(uvec2(p), constants.side) + frameShift(view).xy);
     bool orthographic = view.orthographic > 0.5;
-    int below = 2 * paddedSize(view.size).y;  // coarser levels end here, see depth_mips.glsl
+    ivec2 padded = paddedSize(view.size);
     float sliceCount = float(constants.slices), stratum = 1.0 / float(constants.steps), blocked = 0.0, whole = 0.0;
     // Loops are post-tested: lavapipe runs a pre-tested loop once more with every lane masked.
     for (uint k = 0u;;) {
@@ -97,7 +97,7 @@ void main() {
                 ivec2 at = ivec2(pixel + sign * min(l, farthest) * step);
                 int level = levelFor(l);
                 ivec2 copied = copiedPixel(at, level);
-                Layers layers = layersAt(copied, ivec2(at.x >> level, (at.y - below >> level) + below));
+                Layers layers = layersAt(copied, mipTexelOfSample(padded, at, level));
                 Aside aside = asideOf(receiver, vec2(copied) + 0.5 - pixel, sign);
                 cover(side, receiver, rho, plate, aside, layers.first, layers.first - z, layers.firstLength, layers.steepest,
                     l < farthest && !isSky(view, layers.first), true);

@@ -7,11 +7,11 @@
 #include "shared/view.h"
 
 const float kPi = 3.14159265;
-const float kAbove = 0.002;  // least sine of a sample above the tangent plane
+const float kAbove = 0.002;   // least sine of a sample above the tangent plane
 const float kPlate = 0.65;    // part of its stratum that a sample stands for, to each end
 
 const float kOffSlice = 0.7;  // px, most that the centre of a sample's pixel is off the slice
-const float kJoin = 1.0;     // least change of depth per metre across up to which a sample and the one before are on one surface
+const float kJoin = 1.0;      // least change of depth per metre across up to which a sample and the one before are on one surface
 
 // The pixel as its samples see it. A sample d pixels away, with depth F, is at F (d.x, d.y, 0) + (F - D) ray from a receiver of depth D, in
 // units of unproject; so dot products with v, od and n are linear in d, F and F - D.
@@ -66,7 +66,7 @@ Side sideOf(float nv, float no, float least, float whole) {
     float scale = 16.0 / max(whole, 1e-6);
     return Side(nv * scale, no * scale, (nv + 0.5 * kPi * no) * scale, least, 0u, 0.0, 0.0, 0.0, 32.0, 0.0);
 }
-// (asin c + c sqrt(1 - c^2)) / c, to 0.007.
+// (asin c + c sqrt(1 - c^2)) / c, to 0.006.
 float arcFactor(float c2) { return 1.98877 + c2 * (-0.27345 - 0.13895 * c2); }
 float placeOf(Side side, float a, float b2) {
     float c = max(a * inversesqrt(max(a * a + b2, 1e-20)), side.least), c2 = c * c;

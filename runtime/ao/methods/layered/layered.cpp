@@ -8,7 +8,7 @@
 // integral up to a is
 //     1/2 [(n.v)(1 - c^2) + (n.od)(a - c sqrt(1 - c^2))],
 // as in GTAO's closed form [Jimenez 2016, eq. 7], but as a function of c, so that no arc cosine is needed: a - c sqrt(1 - c^2) =
-// pi/2 - (asin c + c sqrt(1 - c^2)), and the bracket is a polynomial in c to 0.007.
+// pi/2 - (asin c + c sqrt(1 - c^2)), and the bracket is a polynomial in c to 0.006.
 //
 // What lies between samples is covered in two ways. A sample stands for 0.65 of its stratum to each end, as a plate parallel to the image:
 // an object narrower than its stratum is rarely hit, and a hit makes up for the misses. And a sample and the one before are joined where
