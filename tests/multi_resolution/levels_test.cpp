@@ -72,7 +72,48 @@ TEST_F(Levels, sampleCountFollowsTheRadius) {
     EXPECT_EQ(close, (std::vector<float>{16, 36, 36, 36}));
     EXPECT_EQ(counts(20.0f, {{"levels", 5}}), (std::vector<float>{16, 36, 16, 4, 0}));
     EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"pattern", 0}, {"first_radius", 0.5f}}), (std::vector<float>{36, 16, 4, 0, 0}));
-    EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"pattern", 0}, {"max_radius", 2}}), (std::vector<float>{9, 9, 9, 4, 0}));
+    EXPECT_EQ(counts(20.0f, {{"levels", 5}, {"pattern", 0}, {"max_radius", 2}}), (std::vector<float>{4, 4, 4, 4, 0}));
+}
+
+// A step in a wall 20 m away, where patterns shrink to 4 and 2 texels across, and its mirror images.
+TEST_F(Levels, mirroredStepGivesTheMirroredPicture) {
+    for (const bool vertical : {true, false}) {
+        Room room = wall(20.0f), mirror = room;
+        const uint32_t w = room.width, h = room.height;
+        for (uint32_t y = 0; y < h; ++y)
+            for (uint32_t x = 0; x < w; ++x) {
+                const bool near = vertical ? x < w / 2 : y < h / 2;
+                room.depth[y * w + x] = near ? 19.2f : 20.0f;
+                mirror.depth[y * w + x] = near ? 20.0f : 19.2f;
+            }
+        for (const char* preset : {"paper", "default", "fast", "quality"})
+            for (const float radius : {1.2f, 2.3f, 3.9f, 4.99f, 7.0f}) {
+                const ao::Values of = values({{"max_radius", radius}}, preset);
+                const Picture picture = run(room, of), image = run(mirror, of);
+                EXPECT_GT(highest(picture), 0.02f) << preset << radius;
+                const uint32_t vw = room.visibleWidth(), vh = room.visibleHeight();
+                float most = 0.0f;
+                for (uint32_t y = 0; y < vh; ++y)
+                    for (uint32_t x = 0; x < vw; ++x)
+                        most =
+                            std::max(most, std::abs(picture[y * vw + x] - image[vertical ? y * vw + vw - 1 - x : (vh - 1 - y) * vw + x]));
+                EXPECT_LT(most, 0.001f) << preset << ", radius " << radius << (vertical ? ", vertical" : ", horizontal");
+            }
+    }
+}
+
+// A pixel is not its own sample: beside a wall that blocks all of its samples, obscurance of a level is their mean at any radius.
+TEST_F(Levels, pixelIsNotItsOwnSample) {
+    for (const float radius : {1.0f, 1.5f, 2.0f, 2.4f, 3.0f, 4.0f}) {
+        Room room = wall(1.0f);
+        const uint32_t x = room.width / 2, y = room.height / 2;
+        room.depth[size_t(y) * room.width + x] = 4.0f;  // a shaft
+        for (const float pattern : {0.0f, 1.0f}) {
+            readLevel("near", 1);
+            run(room, values({{"max_radius", radius}, {"pattern", pattern}, {"gain", 1}}, "paper"), "constant:5");
+            EXPECT_GT(maximumAt(x - room.guard, y - room.guard), 0.98f) << radius << ", pattern " << pattern;
+        }
+    }
 }
 
 TEST_F(Levels, samplesOutsideTheImageAreNotCounted) {

@@ -14,12 +14,12 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(push_constant) uniform Block { MultiResolutionSample constants; };
 
-// Poisson disk of four points, rotated by quarter turns. At the paper's radius of 5 all are at texel centres, at least 2 texels apart;
-// opposite pairs cancel on a plane.
+// Poisson disk with the symmetries of a square, so that a mirrored picture has the mirrored samples. At the paper's radius of 5 all are at
+// texel centres, at least 2 texels apart; opposite pairs cancel on a plane.
 const vec2 kDisk[16] = vec2[](vec2(0.2, 0.2), vec2(-0.2, -0.2), vec2(-0.2, 0.2), vec2(0.2, -0.2),
-                              vec2(0.8, 0.0), vec2(-0.8, 0.0), vec2(0.0, 0.8), vec2(0.0, -0.8),
-                              vec2(0.8, 0.6), vec2(-0.8, -0.6), vec2(-0.6, 0.8), vec2(0.6, -0.8),
-                              vec2(0.6, -0.4), vec2(-0.6, 0.4), vec2(0.4, 0.6), vec2(-0.4, -0.6));
+                              vec2(0.6, 0.0), vec2(-0.6, 0.0), vec2(0.0, 0.6), vec2(0.0, -0.6),
+                              vec2(0.8, 0.4), vec2(-0.8, -0.4), vec2(-0.4, 0.8), vec2(0.4, -0.8),
+                              vec2(0.8, -0.4), vec2(-0.8, 0.4), vec2(0.4, 0.8), vec2(-0.4, -0.8));
 
 struct Place {
     Surface surface;
@@ -67,15 +67,19 @@ vec3 sampled(ivec2 p, int share, int shares, out float count, out vec3 n) {
                 tap(place, rho, last, ivec2(round(kDisk[i + 1] * radius)), sum, count);
             }
         }
+        // At small radii the innermost points, the first four, are the pixel itself.
+        float itself = shares > 1 ? float(share < 4) : 4.0;
+        count -= !none && round(kDisk[0].x * radius) < 0.5 ? itself : 0.0;
     } else {
-        int across = none ? 0 : min(int(radius) + 1, 6);
-        float spacing = max(2.0, 0.4 * radius);
+        // An even number of texels, symmetric about the pixel, which is not among them: -5, -3, -1, 1, 3 and 5 times `spread`.
+        int across = none ? 0 : radius < 3.0 ? 2 : radius < 5.0 ? 4 : 6;
+        float end = float(across), spread = radius / (end - 1.0);
         if (shares > 1) {
             for (int i = share; i < across * across; i += shares)
-                tap(place, rho, last, ivec2(round(vec2(i % across, i / across) * spacing - radius)), sum, count);
+                tap(place, rho, last, ivec2(round((2.0 * vec2(i % across, i / across) + 1.0 - end) * spread)), sum, count);
         } else {
-            for (int y = 0; y < across; ++y)
-                for (int x = 0; x < across; ++x) tap(place, rho, last, ivec2(round(vec2(x, y) * spacing - radius)), sum, count);
+            for (float y = 1.0 - end; y < end; y += 2.0)
+                for (float x = 1.0 - end; x < end; x += 2.0) tap(place, rho, last, ivec2(round(vec2(x, y) * spread)), sum, count);
         }
     }
     n = place.surface.n;

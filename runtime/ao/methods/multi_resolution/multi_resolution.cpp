@@ -9,6 +9,7 @@
 // - Radii follow its text: the finest level has the whole projected reach [eq. 5 halves it]; `first_radius` 0.5 is eq. 5.
 // - Bilateral weights are normalised [not in table 4]. Lengths are in reaches of the falloff, so the method works at any scale;
 //   tolerance and threshold are 1 m at the paper's reach of 2 m.
+// - Patterns are symmetric about the pixel, and it is not its own sample, at any radius. The paper's -R, -R + 2, ... is only if R is odd.
 // - Levels keep depth, not positions: the chosen texel's depth is moved along its tangent plane to the middle of its block.
 // - The falloff is the shared type; the paper's own is quadratic.
 // Extensions (not in the preset `paper`): samples have the weight of their squared cosine, the fraction of the hemisphere below
