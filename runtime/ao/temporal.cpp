@@ -9,8 +9,11 @@
 namespace obscura::ao {
 
 Status Temporal::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Temporal& out) {
-    return gpu::Program::compute(device, shaders, "ao/common/temporal.comp", {}, out.m_reproject) == gpu::Status::ok ? Status::ok
-                                                                                                                     : Status::shaderError;
+    for (const uint32_t orthographic : {0u, 1u})
+        if (gpu::Program::compute(device, shaders, "ao/common/temporal.comp", {{0, orthographic}},
+                orthographic ? out.m_orthographic : out.m_reproject) != gpu::Status::ok)
+            return Status::shaderError;
+    return Status::ok;
 }
 
 graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const TemporalSettings& settings,
@@ -33,7 +36,7 @@ graph::ImageId Temporal::add(graph::Graph& graph, const Inputs& inputs, graph::I
     constants.clipFloor = settings.clipFloor;
     constants.valid = history.valid ? 1 : 0;
     const graph::ImageId result = graph.image(passName, graph.desc(visibility));
-    graph.pass(passName, m_reproject)
+    graph.pass(passName, inputs.view.orthographic > 0.5f ? m_orthographic : m_reproject)
         .read(inputs.viewBlock)
         .read(inputs.depth)
         .read(inputs.normals)

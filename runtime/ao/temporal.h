@@ -28,7 +28,7 @@ public:
         const char* passName);
 
 private:
-    gpu::Program m_reproject;
+    gpu::Program m_reproject, m_orthographic;
     graph::History m_history;  // RG32UI: linear depth and unrest; visibility, frames gathered and normal, see temporal.comp
 };
 

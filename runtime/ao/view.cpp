@@ -38,6 +38,7 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
     view.project = {
         1.0f / view.unproject.x, 1.0f / view.unproject.y, -view.unproject.z / view.unproject.x, -view.unproject.w / view.unproject.y};
     view.pixelsPerMetre = std::fabs(view.project.y);
+    view.orthographicDepth = orthographicDepth(view);
     view.linearize = perspective ? shared::vec4{0.0f, p[14], w, p[10]} : shared::vec4{-w, p[14], 0.0f, p[10]};
     if (frame.depthKind == DepthKind::device && perspective && p[14] == 0.0f)
         return fail("Frame::projection gives every depth the same value");

@@ -11,6 +11,12 @@ namespace obscura::ao {
 // off-centre, y flipped) is read from the matrix. Status::invalid with a reason if the matrix is no projection.
 Status viewOf(const Frame& frame, shared::View& view, const char*& reason);
 
+// View::orthographicDepth of a view with its visible size and pixelsPerMetre.
+inline float orthographicDepth(const shared::View& view) {
+    constexpr float kDepths = 0.8660254f;  // in heights: 1 / (2 tan 30 degrees)
+    return view.orthographic > 0.5f ? kDepths * float(view.visible.y) / view.pixelsPerMetre : 0.0f;
+}
+
 // The volume block of Frame::volume, without its buffer. Status::invalid with a reason if it describes no volume.
 Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason);
 

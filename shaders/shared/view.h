@@ -17,7 +17,7 @@ struct View {
     uint frame;          // frame number; selects the rotation of samples
     uint temporal;       // 1: samples rotate over frames, because history averages them
     float skyDepth;      // linear depth at or beyond which a pixel is sky
-    uint unused;
+    float orthographicDepth;  // orthographic: linear depth at which a perspective view of 60 degrees has the same height, m; else 0
 };
 OBSCURA_SHARED_SIZE(View, 96);
 
@@ -34,6 +34,8 @@ vec2 pixelOf(View view, vec3 eye) {
 }
 // Unit vector from an eye-space point towards the camera.
 vec3 towardsEye(View view, vec3 eye) { return view.orthographic > 0.5 ? vec3(0, 0, 1) : normalize(-eye); }
+// Depth for tolerances that are relative to depth. That of an orthographic view is measured from a plane anywhere, so it has a fixed one.
+float depthForTolerance(View view, float depth) { return view.orthographic > 0.5 ? view.orthographicDepth : depth; }
 bool isSky(View view, float depth) { return depth >= view.skyDepth; }
 // This frame's shift of noise in [0,1)^3: the additive sequence R3 [Roberts 2018, The Unreasonable Effectiveness of Quasirandom
 // Sequences]. Zero without temporal reprojection.

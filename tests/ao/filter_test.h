@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "ao/method.h"
+#include "ao/view.h"
 #include "ao/room.h"
 #include "graph/executor.h"
 #include "graph/read_back.h"
@@ -27,6 +28,8 @@ protected:
         std::array<float, 3> normal{0.0f, 0.0f, 1.0f};
         float advanced = 0.0f;  // metres that the camera moved forward since last frame
         bool hasMotion = true;
+        bool orthographic = false;
+        float away = 0.0f;  // metres by which the camera's plane is farther back
     };
 
     void SetUp() override {
@@ -39,7 +42,7 @@ protected:
         std::vector<uint32_t> normals;
         for (uint32_t y = 0; y < height; ++y)
             for (uint32_t x = 0; x < width; ++x) {
-                depth.push_back(frame.depth(int(x) - int(kGuard), int(y) - int(kGuard)));
+                depth.push_back(frame.depth(int(x) - int(kGuard), int(y) - int(kGuard)) + frame.away);
                 normals.push_back(packed(frame.normal));
                 motion.insert(motion.end(), {frame.motion[0], frame.motion[1]});
             }
@@ -52,7 +55,10 @@ protected:
         inputs.view.size = {width, height};
         inputs.view.visible = {kWidth, kHeight};
         inputs.view.guard = {kGuard, kGuard};
-        inputs.view.skyDepth = 1000.0f;
+        inputs.view.skyDepth = 1000.0f + frame.away;
+        inputs.view.orthographic = frame.orthographic ? 1.0f : 0.0f;
+        inputs.view.pixelsPerMetre = 1.0f / kHorizontal;
+        inputs.view.orthographicDepth = orthographicDepth(inputs.view);
         inputs.view.unproject = {kHorizontal, -kHorizontal, -kHorizontal * float(width) / 2, kHorizontal * float(height) / 2};
         inputs.viewBlock = m_graph.upload("view", inputs.view);
         std::vector<gpu::Image> kept(4);

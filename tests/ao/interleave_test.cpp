@@ -57,12 +57,15 @@ TEST_F(GatherTest, linearRampIsUnchanged) {  // also for tiles of even side, whi
 }
 
 TEST_F(GatherTest, gatherStopsAtDepthEdges) {
-    for (const uint32_t side : {2u, 3u, 4u}) {
-        const Plane plane =
-            run({.visibility = [](int x, int) { return x < 20 ? 0.0f : 1.0f; }, .depth = [](int x, int) { return x < 20 ? 2.0f : 2.2f; }},
+    for (const uint32_t side : {2u, 3u, 4u})
+        for (const auto& [orthographic, away] : {std::pair{false, 0.0f}, {true, 0.0f}, {true, 1000.0f}}) {
+            const Plane plane = run({.visibility = [](int x, int) { return x < 20 ? 0.0f : 1.0f; },
+                                        .depth = [](int x, int) { return x < 20 ? 2.0f : 2.2f; },
+                                        .orthographic = orthographic,
+                                        .away = away},
                 side);
-        for (uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(at(plane, x, 10), x < 20 ? 0.0f : 1.0f) << side << ": " << x;
-    }
+            for (uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(at(plane, x, 10), x < 20 ? 0.0f : 1.0f) << side << ": " << x << ", " << away;
+        }
 }
 
 TEST_F(GatherTest, weightsOfSharesAreApplied) {

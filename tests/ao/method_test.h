@@ -61,7 +61,8 @@ protected:
         ao::Sources sources;
         sources.depth = import("depth", depth);
         sources.normals = import("normals", normals);
-        gpu::Image thickness, second;
+        gpu::Image thickness, second, motion;
+        if (!room.motion.empty()) sources.motion = import("motion", motion = room.motionImage(m_device));
         if (!room.thickness.empty()) sources.layers.thickness = import("thickness", thickness = room.layer(m_device, false));
         if (!room.second.empty()) sources.layers.second = import("second layer", second = room.layer(m_device, true));
         if (!room.bits.empty()) sources.volume = m_graph->upload("bits", room.bits.data(), room.bits.size() * sizeof(uint32_t));

@@ -23,6 +23,7 @@ struct Room {
     std::vector<float> normals;    // xyz0
     std::vector<float> thickness;  // depth layers, optional: see ao::DepthLayers
     std::vector<float> second;     // second layer: depth and thickness, of every pixel or every second one
+    std::vector<float> motion;     // xy, px, optional
     float projection[16] = {};
     ao::Volume volume;           // around the camera, its buffer left out
     std::vector<uint32_t> bits;  // of the volume: every cell that the floor's or the wall's plane touches
@@ -96,6 +97,9 @@ struct Room {
     gpu::Image layer(gpu::Device& device, bool ofSecond) const {
         return ofSecond ? uploaded(device, VK_FORMAT_R32G32_SFLOAT, secondSize(), second, "layer")
                         : uploaded(device, VK_FORMAT_R32_SFLOAT, {width, height}, thickness, "layer");
+    }
+    gpu::Image motionImage(gpu::Device& device) const {
+        return uploaded(device, VK_FORMAT_R32G32_SFLOAT, {width, height}, motion, "motion");
     }
     gpu::Image image(gpu::Device& device, bool ofNormals) const {
         return ofNormals ? uploaded(device, VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}, normals, "room")

@@ -31,7 +31,7 @@ void main() {
     float ray = dot(vec2(p + guard) + 0.5, along) + dot(view.unproject.zw, n.xy);
     bool orthographic = view.orthographic > 0.5;
     float height = (orthographic ? ray : ray * z) - z * n.z;
-    float sharpness = (kStrict ? kStrictPlane : kPlane) / z;
+    float sharpness = (kStrict ? kStrictPlane : kPlane) / depthForTolerance(view, z);
     const float kernel[3] = {6.0, 4.0, 1.0};
     float sum = 0.0, weights = 0.0;
     for (int y = -2; y <= 2; ++y) {

@@ -5,12 +5,13 @@
 
 const float kMostVisible = 1.5;
 
-// Connection (1) or edge (0) to the left, right, top and bottom neighbour, whose depths are `around`. A slope is not an edge.
-vec4 edgesAt(float z, vec4 around) {
+// Connection (1) or edge (0) to the left, right, top and bottom neighbour, whose depths are `around`. A slope is not an edge. depth: z, or
+// depthForTolerance().
+vec4 edgesAt(float z, float depth, vec4 around) {
     vec4 steps = around - z;
     vec2 slope = 0.5 * (steps.yw - steps.xz);
     vec4 off = min(abs(steps), abs(steps + vec4(slope.x, -slope.x, slope.y, -slope.y)));
-    return clamp(1.25 - off / (z * 0.011), 0.0, 1.0);
+    return clamp(1.25 - off / (depth * 0.011), 0.0, 1.0);
 }
 uint packEdges(vec4 edges) {
     uvec4 e = uvec4(edges * 2.9 + 0.5);

@@ -12,14 +12,14 @@ void main() {
     int reach = int(constants.side) / 2;
     float outer = (constants.side & 1u) != 0u ? 1.0 : 0.5;
     vec3 here, n;
-    float z = surfaceAt(view, p, here, n);
+    float depthHere = depthForTolerance(view, surfaceAt(view, p, here, n));
     vec2 sum = vec2(0.0);
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
             ivec2 at = p + ivec2(x, y), q = clamp(at, ivec2(0), last);
             vec3 there, m;
             surfaceAt(view, q, there, m);
-            bool same = at == q && ofSurface(here, n, z, there, m);
+            bool same = at == q && ofSurface(here, n, depthHere, there, m);
             float w = same || (x == 0 && y == 0) ? (abs(x) == reach ? outer : 1.0) * (abs(y) == reach ? outer : 1.0) : 0.0;
             vec2 share = texelFetch(shares, q, 0).xy;
             sum += w * (kWeighted ? share : vec2(share.x, 1.0));

@@ -12,10 +12,10 @@ layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D normals;
 float depthAt(ivec2 p) { return imageLoad(depth, clamp(p, ivec2(0), ivec2(view.size) - 1)).x; }
 vec3 positionAt(ivec2 p) { p = clamp(p, ivec2(0), ivec2(view.size) - 1); return eyePosition(view, vec2(p) + 0.5, imageLoad(depth, p).x); }
 
-// Planes are linear in 1/depth on the screen; extrapolate there.
+// Planes are linear on the screen in 1/depth, orthographic in depth; extrapolate there.
+float linearOf(float depth) { return view.orthographic > 0.5 ? depth : 1.0 / depth; }
 float misfit(float centre, ivec2 p, ivec2 step) {
-    float a = 1.0 / depthAt(p + step), b = 1.0 / depthAt(p + 2 * step);
-    return abs(2.0 * a - b - 1.0 / centre);
+    return abs(2.0 * linearOf(depthAt(p + step)) - linearOf(depthAt(p + 2 * step)) - linearOf(centre));
 }
 
 vec3 difference(ivec2 p, vec3 here, float centre, ivec2 step) {

@@ -32,12 +32,12 @@ bool receive(View view, ivec2 p, float reach, out Receiver r) {
     ivec2 texel = p + ivec2(view.guard);
     r.last = ivec2(view.size) - 1;
     r.padded = paddedSize(view.size);
-    float z = imageLoad(depths, texel).x;
-    r.edges =
-        packEdges(edgesAt(z, vec4(imageLoad(depths, max(texel - ivec2(1, 0), 0)).x, imageLoad(depths, min(texel + ivec2(1, 0), r.last)).x,
-                                 imageLoad(depths, max(texel - ivec2(0, 1), 0)).x, imageLoad(depths, min(texel + ivec2(0, 1), r.last)).x)));
+    float z = imageLoad(depths, texel).x, depth = depthForTolerance(view, z);
+    vec4 around = vec4(imageLoad(depths, max(texel - ivec2(1, 0), 0)).x, imageLoad(depths, min(texel + ivec2(1, 0), r.last)).x,
+                       imageLoad(depths, max(texel - ivec2(0, 1), 0)).x, imageLoad(depths, min(texel + ivec2(0, 1), r.last)).x);
+    r.edges = packEdges(edgesAt(z, depth, around));
     r.pixel = vec2(texel) + 0.5;
-    r.here = eyePosition(view, r.pixel, z * 0.99999);  // bias against rounding of depth
+    r.here = eyePosition(view, r.pixel, z - 1e-5 * depth);  // bias against rounding of depth
     r.v = towardsEye(view, r.here);
     r.n = unpackNormal(imageLoad(normals, texel).x);
     r.n = dot(r.n, r.v) < 0.0 ? -r.n : r.n;

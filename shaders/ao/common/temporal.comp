@@ -26,9 +26,22 @@ const float kUnrest = 1.5;    // factor on the mean change; 1.25 is one standard
 const float kUnrestFrames = 8.0;
 const float kUnrestUnit = 1.0 / 16384.0;  // of visibility; maximum 1/8
 
-// Depth with its lowest 12 bits replaced: 11 bits of unrest, then 1 if the last change was a rise.
-uint packDepth(float z, float unrest, bool rose) {
-    return (floatBitsToUint(z) & 0xfffff000u) | (rose ? 0x800u : 0u) | uint(min(unrest / kUnrestUnit + 0.5, 2047.0));
+// Depth in 20 bits: the highest of a float. Orthographic depths may be large beside what they differ by, so there only their remainder by a
+// period is kept, in even steps. Sky is then any depth, but has no accumulated frames.
+layout(constant_id = 0) const bool kOrthographic = false;
+float periodOf(View view) { return 256.0 * view.orthographicDepth; }
+uint depthBits(View view, float z) {
+    return kOrthographic ? uint(fract(z / periodOf(view)) * 1048575.0) << 12 : floatBitsToUint(z) & 0xfffff000u;
+}
+// The depth of these bits; orthographic: the one nearest to `expected`.
+float depthOf(View view, uint bits, float expected) {
+    if (!kOrthographic) return uintBitsToFloat(bits & 0xfffff000u);
+    float off = float(bits >> 12) / 1048575.0 - expected / periodOf(view);
+    return expected + (off - round(off)) * periodOf(view);
+}
+// The other bits: 11 of unrest, then 1 if the last change was a rise.
+uint packDepth(View view, float z, float unrest, bool rose) {
+    return depthBits(view, z) | (rose ? 0x800u : 0u) | uint(min(unrest / kUnrestUnit + 0.5, 2047.0));
 }
 
 // 14 bits of visibility, 6 of accumulated frames, 6 and 6 of the octahedral normal (error up to 3 degrees).
@@ -47,7 +60,7 @@ void main() {
     uint packedNormal = imageLoad(normals, p + guard).x;
     if (isSky(view, z)) {
         imageStore(result, p, vec4(visibility));
-        imageStore(newHistory, p, uvec4(packDepth(z, 0.0, false), packHistory(visibility, 0.0, packedNormal), 0, 0));
+        imageStore(newHistory, p, uvec4(packDepth(view, z, 0.0, false), packHistory(visibility, 0.0, packedNormal), 0, 0));
         return;
     }
 
@@ -61,7 +74,7 @@ void main() {
     // A moving receiver was elsewhere: the plane goes through its pixel of last frame instead.
     float previousDepth = -previous.z;
     float plane = dot(eyePosition(view, at + 0.5 + vec2(guard), previousDepth), previousNormal);
-    farthest *= previousDepth;
+    farthest *= kOrthographic ? view.orthographicDepth : previousDepth;
 
     vec2 corner = floor(at), fraction = at - corner;
     float sum = 0.0, frameSum = 0.0, unrest = 0.0, riseSum = 0.0, weights = 0.0;
@@ -70,7 +83,7 @@ void main() {
         bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThanEqual(q, last));
         ivec2 c = clamp(q, ivec2(0), last);
         uvec2 stored = imageLoad(history, c).xy;
-        float zq = uintBitsToFloat(stored.x & 0xfffff000u);
+        float zq = depthOf(view, stored.x, previousDepth);
         float off = abs(dot(eyePosition(view, vec2(c + guard) + 0.5, zq), previousNormal) - plane);
         vec3 m = fromOctahedron(vec2(stored.yy >> uvec2(20, 26) & 63u) * (2.0 / 63.0) - 1.0);
         bool same = inside && off <= farthest && dot(m, previousNormal) >= leastCosine;
@@ -111,5 +124,5 @@ void main() {
     bool rose = visibility > old, turned = rose != (riseSum > 0.5 * weights);
     float change = mix(turned ? 2.0 * abs(visibility - old) : 0.0, abs(visibility - old), motionWeight);
     unrest += hasHistory ? (change - unrest) / min(frames, kUnrestFrames) : 0.0;
-    imageStore(newHistory, p, uvec4(packDepth(z, unrest, rose), packHistory(value, frames, packedNormal), 0, 0));
+    imageStore(newHistory, p, uvec4(packDepth(view, z, unrest, rose), packHistory(value, frames, packedNormal), 0, 0));
 }

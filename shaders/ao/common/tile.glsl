@@ -21,7 +21,9 @@ vec3 pixelNoise(ivec2 pixel) {
                  float(pixel.y & 1023) * vec3(0.5698402910, 0.6710436067, 0.7338918566));
 }
 
-// Whether `there`, with normal m, is on the surface through `here`, of depth z and normal n.
-bool ofSurface(vec3 here, vec3 n, float z, vec3 there, vec3 m) { return dot(n, m) > 0.5 && abs(dot(there - here, n)) < 0.01 * z; }
+// Whether `there`, with normal m, is on the surface through `here`, with normal n. depth: that of `here`, depthForTolerance().
+bool ofSurface(vec3 here, vec3 n, float depth, vec3 there, vec3 m) {
+    return dot(n, m) > 0.5 && abs(dot(there - here, n)) < 0.01 * depth;
+}
 
 #endif

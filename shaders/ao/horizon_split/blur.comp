@@ -22,7 +22,7 @@ void main() {
         return;
     }
     const float kernel[3] = {6.0, 4.0, 1.0};
-    float sharpness = kSharpness / z, sum = 0.0, weights = 0.0;
+    float sharpness = kSharpness / depthForTolerance(view, z), sum = 0.0, weights = 0.0;
     for (int y = -2; y <= 2; ++y) {
         for (int x = -2; x <= 2; ++x) {
             ivec2 at = p + ivec2(x, y), q = clamp(at, ivec2(0), last);

@@ -42,7 +42,7 @@ void main() {
     vec3 n = unpackNormal(imageLoad(normals, p + guard).x);
     vec2 slope = n.xy * view.unproject.xy;
     float ray = dot(vec2(p + guard) + 0.5, slope) + dot(n.xy, view.unproject.zw), plane = ray * (orthographic ? 1.0 : z) - n.z * z;
-    float sharpness = kPlane / z;
+    float sharpness = kPlane / depthForTolerance(view, z);
     ivec2 first = ivec2(floor(place)) - int(constants.before);
     // The neighbour's ray; neighbours beyond the image's edge are taken to be at its map pixel's place all the same.
     float firstRay = ray + dot(vec2(first * int(constants.map) + int(constants.map / 2u) - p), slope);
