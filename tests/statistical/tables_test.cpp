@@ -72,6 +72,27 @@ TEST_F(TablesTest, everyLayerIsTheExactSumOfItsTexels) {
     }
 }
 
+// Compares sums over windows with exact ones. Returns the largest, and the largest entry of the whole table.
+std::pair<int64_t, int64_t> largestSums(
+    const std::vector<Texel>& root, const std::vector<Texel>& texels, shared::uvec2 size, uint32_t window) {
+    const auto exact = tableOf(texels, size, [](size_t) { return true; });
+    const uint32_t w = size.x + 1;
+    int64_t largest = 0, whole = 0;
+    for (uint32_t y = 0; y + window <= size.y; ++y)
+        for (uint32_t x = 0; x + window <= size.x; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const auto at = [&](const auto& table, uint32_t px, uint32_t py) { return table[size_t(py) * w + px][c]; };
+                const int64_t sum =
+                    at(exact, x + window, y + window) - at(exact, x, y + window) - at(exact, x + window, y) + at(exact, x, y);
+                const uint32_t modular =
+                    at(root, x + window, y + window) - at(root, x, y + window) - at(root, x + window, y) + at(root, x, y);
+                EXPECT_EQ(sum, int32_t(modular)) << x << ", " << y;
+                largest = std::max(largest, std::abs(sum));
+            }
+    for (int c = 0; c < 3; ++c) whole = std::max(whole, std::abs(exact.back()[c]));
+    return {largest, whole};
+}
+
 TEST_F(TablesTest, noWindowOverflows) {
     // Large windows over far coordinates: entries of the table wrap around, differences over a window must not.
     for (const uint32_t side : {1u, 2u}) {
@@ -79,26 +100,47 @@ TEST_F(TablesTest, noWindowOverflows) {
         const shared::Box box{2.0f, 4.0f, 60.0f, side};
         const Tables t = tables(room, box, 0);
         EXPECT_EQ(t.nearest, 0.5f);
-        const double reach = (60.0 + side) * 2.0, most = reach * reach * (double(t.coordinate) * t.units + 1.0);
+        const double reach = (60.0 + side) * 2.0, most = reach * reach * (double(std::max(t.coordinate, t.furthest)) * t.units + 1.0);
         EXPECT_LT(most, 2147483648.0);
         EXPECT_GT(most, 2147483648.0 / 4.0) << "the range of 32 bits is not used";
-        const auto exact = tableOf(t.texels, t.size, [](size_t) { return true; });
-        const uint32_t w = t.size.x + 1, window = uint32_t(reach) / side;
-        int64_t largest = 0, whole = 0;
-        for (uint32_t y = 0; y + window <= t.size.y; ++y)
-            for (uint32_t x = 0; x + window <= t.size.x; ++x)
-                for (int c = 0; c < 3; ++c) {
-                    const auto at = [&](const auto& table, uint32_t px, uint32_t py) { return table[size_t(py) * w + px][c]; };
-                    const int64_t sum =
-                        at(exact, x + window, y + window) - at(exact, x, y + window) - at(exact, x + window, y) + at(exact, x, y);
-                    const uint32_t modular =
-                        at(t.root, x + window, y + window) - at(t.root, x, y + window) - at(t.root, x + window, y) + at(t.root, x, y);
-                    ASSERT_EQ(sum, int32_t(modular));
-                    largest = std::max(largest, std::abs(sum));
-                }
-        for (int c = 0; c < 3; ++c) whole = std::max(whole, std::abs(exact.back()[c]));
+        const auto [largest, whole] = largestSums(t.root, t.texels, t.size, uint32_t(reach) / side);
         EXPECT_GT(whole, int64_t(1) << 31) << "no entry wrapped around";
         EXPECT_GT(largest, int64_t(1) << 28);
+    }
+}
+
+// Few far pixels, together in one corner: what all coordinates add up to bounds the sums.
+TEST_F(TablesTest, fewFarPixelsKeepTheUnitsSmall) {
+    Room near = rubble(400, 300, 20.0f), room = near;
+    for (uint32_t y = 0; y < 10; ++y)
+        for (uint32_t x = 0; x < 10; ++x) room.depth[y * room.width + x] = 9000.0f - float(x + y);
+    ao::Frame frame = room.frame();
+    frame.skyDepth = 9500.0f;
+    for (const uint32_t side : {1u, 2u}) {
+        const shared::Box box{2.0f, 4.0f, 60.0f, side};
+        const Tables t = tables(room, frame, box, 0);
+        EXPECT_EQ(t.furthest, 9000.0f);
+        EXPECT_GE(t.units, tables(near, frame, box, 0).units / 8.0f) << "9000 m by the largest window alone: / 512";
+        const auto [largest, whole] = largestSums(t.root, t.texels, t.size, 122 / side);
+        EXPECT_GT(largest, int64_t(1) << 27);
+        EXPECT_LT(whole, int64_t(1) << 31);
+    }
+}
+
+// Beyond the limit surfaces are as sky: in the tables, and as receivers.
+TEST_F(TablesTest, surfacesBeyondTheLimitAreNotCounted) {
+    Room room;
+    room.build();
+    std::fill(room.depth.begin(), room.depth.end(), 4.0f);
+    const shared::Box box{0.5f, 1.0f, 20.0f, 1};
+    const float limit = 2147483000.0f / (42.0f * 42.0f) * box.height / 4.0f;
+    ao::Frame frame = room.frame();
+    frame.skyDepth = 1e8f;
+    for (const float beyond : {0.9f, 1.1f}) {
+        room.depth[room.width * 40 + 50] = beyond * limit;
+        const Tables t = tables(room, frame, box, 0);
+        EXPECT_EQ(t.texels[room.width * 40 + 50][3], beyond < 1.0f ? 1u : 0u);
+        EXPECT_EQ(t.furthest, beyond < 1.0f ? 0.9f * limit : 4.0f);
     }
 }
 
@@ -110,9 +152,9 @@ TEST_F(TablesTest, countsExcludeSky) {
             for (uint32_t x = 0; x < t.size.x; ++x) {
                 uint32_t count = 0;
                 double z = 0.0;
-                for (uint32_t v = y * side; v < std::min(y * side + side, room.height); ++v)
-                    for (uint32_t u = x * side; u < std::min(x * side + side, room.width); ++u) {
-                        const float depth = room.depth[size_t(v) * room.width + u];
+                for (uint32_t v = y * side; v < y * side + side; ++v)
+                    for (uint32_t u = x * side; u < x * side + side; ++u) {  // edge pixels are repeated
+                        const float depth = room.depth[size_t(std::min(v, room.height - 1)) * room.width + std::min(u, room.width - 1)];
                         if (depth >= 9000.0f) continue;
                         ++count;
                         z -= depth;
@@ -161,6 +203,35 @@ TEST_P(Tilted, meanHeightOverAPlaneIsZero) {
             ASSERT_LT(std::abs(height), 1e-4f * 1.5f / 1.4f) << "pixel " << i;
         }
     }
+}
+
+TEST_F(StatisticalTest, tablesThatShrinkAreLogged) {
+    Room room;
+    room.width = 1936;
+    room.height = 1100;
+    room.guard = 0;
+    room.build();
+    const gpu::Image depth = room.image(m_device, false), normals = room.image(m_device, true);
+    const auto says = [&](Layering layering) {  // declares a frame
+        const auto import = [&](const gpu::Image& image) {
+            graph::External external{image.handle(), image.view(), image.desc()};
+            external.layout = external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+            return m_graph->import("room", external);
+        };
+        logged().clear();
+        m_graph->begin();
+        ao::Frame frame = room.frame();
+        frame.volume = {};
+        ao::Sources sources;
+        sources.depth = import(depth);
+        sources.normals = import(normals);
+        EXPECT_TRUE(bool(m_library->add(*m_graph, frame, sources, {}, values({{"layers", float(layering)}}, "quality")).visibility));
+        return loggedContains("statistical: tables of full size do not fit this device's storage buffers");
+    };
+    EXPECT_FALSE(says(kFour));
+    const bool tooLarge = ao::SummedArea::bytes({room.width, room.height}, 4) > m_device.caps().maxStorageRange;
+    EXPECT_EQ(says(kEight), tooLarge);
+    EXPECT_FALSE(says(kEight)) << "once is enough";
 }
 
 TEST_F(TablesTest, psiRisesToOneAndFallsFourTimesAsFast) {

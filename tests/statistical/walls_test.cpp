@@ -1,6 +1,7 @@
 // A wall behind a floor against the values of an independent implementation, and the influence of the parameters there.
 #include <random>
 
+#include "offscreen/tall_box.h"
 #include "statistical/fixture.h"
 
 namespace obscura::test {
@@ -88,6 +89,98 @@ TEST_F(StatisticalTest, planesAreOpen) {
             EXPECT_LT(highest(run(room, values({}, preset))), 5e-4f) << preset;  // visibility is 1, or the half float next to 1
         }
     }
+}
+
+// The largest window bounds the fixed point: at 1920 x 1080 px these distances are 10 km and 2 km.
+TEST_F(StatisticalTest, onePixelFarAwayDoesNotSpoilTheOthers) {
+    for (const bool orthographic : {false, true})
+        for (const float far : {4e4f, 8e3f}) {
+            Room room;
+            room.width = 960;
+            room.height = 540;
+            room.guard = 0;
+            room.build();
+            room.bits.clear();
+            room.volume = {};
+            if (orthographic) {
+                const float scale = 2.0f / 5.0f;  // 5 m high
+                const float p[16] = {scale * 540.0f / 960.0f, 0, 0, 0, 0, -scale, 0, 0, 0, 0, -1e-6f, 0, 0, 0, 0, 1};
+                std::memcpy(room.projection, p, sizeof(p));
+            }
+            for (size_t i = 0; i < room.depth.size(); ++i) {
+                room.depth[i] = (orthographic ? 1000.0f : 0.0f) + 2.3f;
+                room.normals[4 * i + 1] = 0.0f;
+                room.normals[4 * i + 2] = 1.0f;
+            }
+            room.depth[0] = far;
+            ao::Frame frame = room.frame();
+            frame.skyDepth = 1e5f;
+            for (const char* preset : {"default", "paper"}) {
+                const Picture picture = run(room, frame, values({}, preset), "quadratic:1");
+                EXPECT_LT(highest(picture), 0.002f) << preset << ", " << far << " m, orthographic: " << orthographic;
+            }
+        }
+}
+
+// Windows of which a half is sky, and a quarter a block above the floor: sky is as open as a wall 100 m behind.
+TEST_F(StatisticalTest, skyIsAsOpenAsADistantWall) {
+    const auto scene = [](float behind) {
+        Room room;
+        room.build();
+        for (uint32_t y = 0; y < room.height; ++y)
+            for (uint32_t x = 0; x < room.width; ++x) {
+                const size_t i = size_t(y) * room.width + x;
+                room.depth[i] = x >= room.width / 2 ? behind : y < room.height / 2 ? 2.6f : 3.0f;
+                room.normals[4 * i + 1] = 0.0f;
+                room.normals[4 * i + 2] = 1.0f;
+            }
+        return room;
+    };
+    const Room sky = scene(1e4f), wall = scene(100.0f);
+    std::vector<std::pair<std::string, ao::Values>> all;
+    for (const char* preset : {"default", "paper", "quality", "paper_half", "paper_quarter"}) all.push_back({preset, values({}, preset)});
+    for (const Estimator estimator : {kPoints, kLines})
+        all.push_back({estimator == kPoints ? "points" : "lines", values({{"estimator", float(estimator)}})});
+    for (const Layering layers : {kTwo, kEight, kUniform16})
+        all.push_back({"layers " + std::to_string(layers), values({{"layers", float(layers)}})});
+    for (const auto& [name, of] : all) {
+        const Picture before = run(sky, of), distant = run(wall, of);
+        float most = 0.0f, highest = 0.0f;
+        for (uint32_t y = 0; y < sky.visibleHeight(); ++y)
+            for (uint32_t x = 0; x < sky.visibleWidth() / 2 - 2; ++x) {
+                const size_t i = size_t(y) * sky.visibleWidth() + x;
+                most = std::max(most, std::abs(before[i] - distant[i]));
+                highest = std::max(highest, before[i]);
+            }
+        EXPECT_GT(highest, 0.1f) << name;
+        EXPECT_LT(most, 0.01f) << name;
+    }
+}
+
+// A box hidden by a panel 3.5 m before it, which is higher than the method's box and so blocks nothing: the off-screen pass adds the box.
+TEST_F(StatisticalTest, boxHiddenByADistantPanelIsAdded) {
+    TallBox box({-0.6, TallBox::kFloor, -7.0}, {0.6, 0.5, -5.5});
+    box.turnTo(0.0);
+    for (uint32_t y = 0; y < box.height; ++y)
+        for (uint32_t x = 0; x < box.width; ++x) {
+            const TallBox::Point d = box.direction(x + 0.5, y + 0.5);
+            const size_t i = size_t(y) * box.width + x;
+            int axis = 0;
+            if (std::abs(box.hit({0, 0, 0}, d, axis) - double(box.depth[i])) > 1e-3) continue;
+            box.depth[i] = 2.0f;
+            box.normals[4 * i] = box.normals[4 * i + 1] = 0.0f;
+            box.normals[4 * i + 2] = 1.0f;
+        }
+    const TallBox::Point p{-0.75, TallBox::kFloor, -6.2};
+    const auto at = box.pixelOf(p);
+    const auto obscurance = [&](float offscreen) {
+        return double(
+            run(box, box.seen(), values({{"offscreen", offscreen}}), "quadratic:2").at(size_t(at[1]) * box.visibleWide() + size_t(at[0])));
+    };
+    const double exact = box.truth(p, {}), alone = obscurance(0), hidden = obscurance(2);
+    printf("beside a hidden box: exact %.3f, alone %.3f, with hidden occluders %.3f\n", exact, alone, hidden);
+    EXPECT_LT(alone, 0.6 * exact);
+    EXPECT_NEAR(hidden - alone, exact, 0.06);
 }
 
 TEST_F(StatisticalTest, resultIsIndependentOfTheFrameIndex) {

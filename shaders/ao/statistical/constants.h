@@ -4,6 +4,11 @@
 #include "ao/statistical/fixed_point.h"
 OBSCURA_SHARED_BEGIN
 
+struct StatisticalExtentBlocks {  // extent_blocks.comp
+    Box box;
+};
+OBSCURA_SHARED_SIZE(StatisticalExtentBlocks, 24);
+
 struct StatisticalExtent {  // extent.comp
     uint count;  // blocks
 };
@@ -13,7 +18,7 @@ struct StatisticalTexels {  // texels.comp
     Box box;
     uvec2 size;  // of the tables, texels
 };
-OBSCURA_SHARED_SIZE(StatisticalTexels, 24);
+OBSCURA_SHARED_SIZE(StatisticalTexels, 32);
 
 struct StatisticalLayers {  // layers.comp
     Box box;
@@ -21,7 +26,7 @@ struct StatisticalLayers {  // layers.comp
     uint uniformLayers;  // number of layers of equal thickness; 0: one more level of two
     uint unused;
 };
-OBSCURA_SHARED_SIZE(StatisticalLayers, 32);
+OBSCURA_SHARED_SIZE(StatisticalLayers, 40);
 
 struct StatisticalEvaluate {  // evaluate.comp
     Box box;
@@ -29,7 +34,7 @@ struct StatisticalEvaluate {  // evaluate.comp
     float slope;
     float gain;
 };
-OBSCURA_SHARED_SIZE(StatisticalEvaluate, 32);
+OBSCURA_SHARED_SIZE(StatisticalEvaluate, 40);
 
 struct StatisticalUniform {  // uniform.comp
     Box box;
@@ -39,7 +44,7 @@ struct StatisticalUniform {  // uniform.comp
     uint isFirst;
     uint isLast;
 };
-OBSCURA_SHARED_SIZE(StatisticalUniform, 40);
+OBSCURA_SHARED_SIZE(StatisticalUniform, 48);
 
 struct StatisticalSamples {  // samples.comp
     Box box;
@@ -48,7 +53,7 @@ struct StatisticalSamples {  // samples.comp
     uint samples;
     uint lines;
 };
-OBSCURA_SHARED_SIZE(StatisticalSamples, 32);
+OBSCURA_SHARED_SIZE(StatisticalSamples, 40);
 
 OBSCURA_SHARED_END
 #endif

@@ -31,7 +31,7 @@ void main() {
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
     float z = imageLoad(depth, texel).x;
-    if (isSky(view, z)) {
+    if (isOpen(view, box, originOf(view, extent), eyePosition(view, vec2(texel) + 0.5, z), z)) {
         imageStore(visibility, p, vec4(1.0));
         return;
     }
@@ -43,8 +43,8 @@ void main() {
         Column c = columnAt(centre, reach, constants.size, column);
         vec2 cell = cellsOf(c);
         cells += cell.x + cell.y;
+        vec2 perPixel = cell / pixelsOf(box, c);
         Sums whole = sumRoot(0u, c, constants.size, shape.up);
-        vec2 perPixel = cell / max(whole.count, 0.25);
         if (layers == 1u) {
             blocked += dot(blockedBy(whole, shape), perPixel);
         } else {

@@ -32,16 +32,16 @@ void main() {
         return;
     }
     float units = unitsPerMetre(view, box, extent);
-    float d = -float(texel.x) / float(texel.y);  // in units
+    float d = -float(texel.x) / float(texel.y), z = d / units + originOf(view, extent);  // d: in units
     if (level == 0u) {
-        float near = nearestDepth(extent), far = uintBitsToFloat(extent.furthest);
+        float near = nearestDepth(extent), far = min(uintBitsToFloat(extent.furthest), originOf(view, extent) + box.limit);
         float count = float(constants.uniformLayers);
-        codes[at] = uint(clamp((d / units - near) / max(far - near, 1e-6) * count, 0.0, count - 1.0));
+        codes[at] = uint(clamp((z - near) / max(far - near, 1e-6) * count, 0.0, count - 1.0));
         return;
     }
 
     // Whole texels: fractions of texels at the window's edge do not matter for the split.
-    float reach = halfWindow(view, box, d / units) / float(box.texelSide);
+    float reach = halfWindow(view, box, z) / float(box.texelSide);
     ivec2 low = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 - reach)), ivec2(0), ivec2(t));
     ivec2 high = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 + reach)), ivec2(t) + 1, ivec2(constants.size));
     uint pitch = constants.size.x + 1u;

@@ -41,9 +41,9 @@ void main() {
         float zq = imageLoad(depth, q).x;
         float part = psi(dot(eyePosition(view, vec2(q) + 0.5, zq) - here, n) / height, constants.slope);
         float point = part > (float(i) + 0.5) / float(constants.samples) ? 1.0 : 0.0;
-        bool counts = !isSky(view, zq) && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
-        blocked += counts ? (constants.lines != 0u ? part : point) : 0.0;
-        count += counts ? 1.0 : 0.0;
+        bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
+        blocked += inside && !isSky(view, zq) ? (constants.lines != 0u ? part : point) : 0.0;
+        count += inside ? 1.0 : 0.0;
     }
     imageStore(visibility, p, vec4(clamp(1.0 - constants.gain * blocked / max(count, 1.0), 0.0, 1.0)));
 }

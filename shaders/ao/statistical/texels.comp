@@ -1,4 +1,5 @@
-// Downsampling: texel = (sum x, sum y, sum z, count) over its pixels that are not sky, in fixed point [Hendrickx, sec. 7.1].
+// Downsampling: texel = (sum x, sum y, sum z, count) over its pixels that are not open, in fixed point [Hendrickx, sec. 7.1]. Edge pixels
+// are repeated where the frame ends in a texel.
 // Sums, not means, so that counts stay exact. In: linear depth, the frame's extent. Out: texels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -16,17 +17,18 @@ void main() {
     Box box = constants.box;
     uvec2 t = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(t, constants.size))) return;
-    float units = unitsPerMetre(view, box, extent);
-    uint side = box.texelSide;
-    ivec4 sum = ivec4(0);
+    float units = unitsPerMetre(view, box, extent), origin = originOf(view, extent);
+    uint side = box.texelSide, count = 0u;
+    vec3 sum = vec3(0.0);
     for (uint y = 0u; y < side; ++y) {
         for (uint x = 0u; x < side; ++x) {
-            uvec2 at = t * side + uvec2(x, y), p = min(at, view.size - 1u);
+            uvec2 p = min(t * side + uvec2(x, y), view.size - 1u);
             float z = imageLoad(depth, ivec2(p)).x;
-            bool counts = at == p && !isSky(view, z);
-            ivec3 here = ivec3(round(eyePosition(view, vec2(p) + 0.5, counts ? z : 0.0) * units));
-            sum += counts ? ivec4(here, 1) : ivec4(0);
+            vec3 here = eyePosition(view, vec2(p) + 0.5, z);
+            bool counts = !isOpen(view, box, origin, here, z);
+            sum += counts ? vec3(here.xy, origin - z) : vec3(0.0);
+            count += counts ? 1u : 0u;
         }
     }
-    texels[t.y * constants.size.x + t.x] = uvec4(sum);
+    texels[t.y * constants.size.x + t.x] = uvec4(ivec4(round(sum * units), count));
 }

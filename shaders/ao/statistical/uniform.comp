@@ -1,5 +1,5 @@
 // Visibility from uniform layers, two at a time [Hendrickx, sec. 4, eq. 5], for comparison with adaptive ones.
-// In: depth, normals, extent, the root table and that of two layers. In and out: accumulated blocked counts of each column's two cells.
+// In: depth, normals, extent, the table of two layers. In and out: accumulated blocked counts of each column's two cells.
 // Out, in the last pass: visibility, R16F.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
@@ -11,13 +11,11 @@ layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, std430) readonly buffer ExtentBlock { Extent extent; };
-layout(set = 0, binding = 4, std430) readonly buffer Root { uvec4 root[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Pair { uvec4 pair[]; };
-layout(set = 0, binding = 6, std430) buffer Blocked { vec2 blocked[]; };
-layout(set = 0, binding = 7, r16f) uniform writeonly image2D visibility;
+layout(set = 0, binding = 4, std430) readonly buffer Pair { uvec4 pair[]; };
+layout(set = 0, binding = 5, std430) buffer Blocked { vec2 blocked[]; };
+layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Block { StatisticalUniform constants; };
 
-WINDOW_SUMS(sumRoot, root, 1u)
 WINDOW_SUMS(sumPair, pair, 2u)
 
 void main() {
@@ -40,9 +38,9 @@ void main() {
         if (constants.isLast == 0u) continue;
         vec2 cell = cellsOf(c);
         cells += cell.x + cell.y;
-        fraction += dot(sum / max(sumRoot(0u, c, constants.size, shape.up).count, 0.25), cell);
+        fraction += dot(sum / pixelsOf(box, c), cell);
     }
     if (constants.isLast == 0u) return;
     float open = clamp(1.0 - constants.gain * fraction / max(cells, 1.0), 0.0, 1.0);
-    imageStore(visibility, p, vec4(isSky(view, z) ? 1.0 : open));
+    imageStore(visibility, p, vec4(isOpen(view, box, originOf(view, extent), eyePosition(view, pixel, z), z) ? 1.0 : open));
 }

@@ -23,7 +23,7 @@ Edge edgeAt(float at, uint size) {
 // Edges of a column of a window, table texels. With quadrants it is cut at y1 into an upper and a lower cell; else it ends there.
 struct Column { float x0, x1, y0, y1, y2; };
 
-// Sums over a column's two cells: heights above the tangent plane's parallel through the eye, metres; number of pixels.
+// Sums over a column's two cells: heights above the tangent plane's parallel through the tables' origin, metres; number of pixels.
 struct Sums { vec2 height, count; };
 Sums minus(Sums a, Sums b) { return Sums(a.height - b.height, a.count - b.count); }
 
@@ -61,14 +61,14 @@ Sums NAME(uint layer, Column c, uvec2 size, vec3 up) {                          
 // The box of a pixel.
 struct Shape {
     vec3 up;          // normal, metres per unit
-    float base;       // height of the pixel above the tangent plane's parallel through the eye, metres
+    float base;       // height of the pixel above the tangent plane's parallel through the tables' origin, metres
     float height;     // of the box, metres
     float slope;
 };
 Shape shapeOf(View view, Box box, Extent extent, vec2 pixel, float z, uint normal, float slope) {
     vec3 here = eyePosition(view, pixel, z), n = unpackNormal(normal);
     if (dot(n, towardsEye(view, here)) < 0.0) n = -n;
-    return Shape(n / unitsPerMetre(view, box, extent), dot(here, n), boxHeight(view, box, z), slope);
+    return Shape(n / unitsPerMetre(view, box, extent), dot(vec3(here.xy, originOf(view, extent) - z), n), boxHeight(view, box, z), slope);
 }
 
 // Blocked fraction of a box by mean height: 1 at 1, 0 from 1 + 1 / slope on [Hendrickx, sec. 3.3].
@@ -91,5 +91,11 @@ Column columnAt(vec2 centre, float reach, uvec2 size, uint index) {
 
 // 1 for each of a column's two cells, 0 if it is empty: at the frame's edge, or below if there is no lower cell.
 vec2 cellsOf(Column c) { return vec2(c.x1 > c.x0 && c.y1 > c.y0, c.x1 > c.x0 && c.y2 > c.y1); }
+
+// Pixels of a column's two cells, open ones too, at least a quarter.
+vec2 pixelsOf(Box box, Column c) {
+    float area = float(box.texelSide * box.texelSide);
+    return max(area * (c.x1 - c.x0) * vec2(c.y1 - c.y0, c.y2 - c.y1), vec2(0.25));
+}
 
 #endif

@@ -7,8 +7,8 @@
 //
 // Differences where the paper is incomplete or wrong:
 // - Occupancy is 1 inside solids [eq. 2 has it inverted].
-// - All layers count in the mean, also those wholly outside of the box: space behind and far in front is open [eq. 5's "i in V" does not
-//   say].
+// - All layers count in the mean, also those wholly outside of the box, and sky: space behind and far in front is open [eq. 5's "i in V"
+//   does not say].
 // - Tables are 32-bit integers, not floats, so their sums and differences are exact (fixed_point.h).
 // - The mean over the box is not cosine-weighted as ambient obscurance is; `gain` compensates on average over scenes.
 // - The box is sized from the falloff: R is the reach of the quadratic falloff with the same integral.
@@ -112,7 +112,7 @@ public:
         const float R = quadraticReach(inputs.falloffDesc);
         const uint32_t layering = values.count("layers"), estimator = values.count("estimator");
         Box box{values["radius"] * R, values["height"] * R, std::max(values["largest"] * float(view.visible.y), 1.0f),
-            1u << values.count("tables")};
+            1u << values.count("tables"), 0.0f, 0};
         const graph::ImageId visibility = graph.image("statistical.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
         if (estimator != kTables) {
             const shared::StatisticalSamples constants{
@@ -150,8 +150,11 @@ public:
         return visibility;
     }
 
-    // Everything below the mean height counts as filled, at any distance in front.
-    Blocking blocking(const Inputs&, const Values&) const override { return {}; }
+    // Everything below the mean height counts as filled, unless that is so high that psi is 0.
+    Blocking blocking(const Inputs& inputs, const Values& values) const override {
+        const float height = values["height"] * quadraticReach(inputs.falloffDesc);
+        return {height * (1.0f + 1.0f / values["slope"]), Blocking::kEndless};
+    }
 
 private:
     void addUniform(graph::Graph& graph, const Inputs& inputs, const shared::StatisticalEvaluate& evaluate, const Tables& t,
@@ -167,7 +170,6 @@ private:
                 .read(inputs.depth)
                 .read(inputs.normals)
                 .read(t.extent)
-                .read(t.root)
                 .read(pair)
                 .write(blocked)
                 .write(visibility)

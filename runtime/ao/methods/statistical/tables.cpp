@@ -3,6 +3,8 @@
 #include "ao/statistical/constants.h"
 
 #include <cassert>
+#include <string>
+#include <utility>
 
 namespace obscura::ao {
 namespace {
@@ -33,11 +35,20 @@ Status StatisticalTables::create(gpu::Device& device, const gpu::ShaderLibrary& 
 StatisticalTables::Tables StatisticalTables::add(graph::Graph& graph, const Inputs& inputs, Box box, uint32_t levels) {
     const auto& view = inputs.view;
     const auto sizeOf = [&](uint32_t side) { return uvec2{(view.size.x + side - 1) / side, (view.size.y + side - 1) / side}; };
+    const uint32_t asked = box.texelSide;
     while (SummedArea::bytes(sizeOf(box.texelSide), levels > 1 ? 1u << (levels - 1) : 2) > m_largest) box.texelSide *= 2;
+    if (box.texelSide > asked && !std::exchange(m_warned, true)) {
+        const auto part = [](uint32_t side) { return side == 1 ? std::string("full size") : "1/" + std::to_string(side) + " of the size"; };
+        graph.device().log(
+            gpu::Severity::warning, ("statistical: tables of " + part(asked) + " do not fit this device's storage buffers of " +
+                                        std::to_string(m_largest >> 20) + " MiB; they have " + part(box.texelSide))
+                                        .c_str());
+    }
     // The bound of the fixed point must leave a few units over the whole depth range (fixed_point.h).
     assert(4.0f * (box.largest + float(box.texelSide)) * (box.largest + float(box.texelSide)) < 1.0e8f &&
            "statistical: the window is too large for 32-bit sums: lower `largest` or the image height");
 
+    box.limit = shared::limitOf(box, view.size);
     Tables t{box, sizeOf(box.texelSide), {}, {}, {}, {}, {}};
     const uvec2 blocks{(view.size.x + kBlock.x - 1) / kBlock.x, (view.size.y + kBlock.y - 1) / kBlock.y};
     const uint32_t count = blocks.x * blocks.y;
@@ -47,8 +58,14 @@ StatisticalTables::Tables StatisticalTables::add(graph::Graph& graph, const Inpu
         .read(inputs.viewBlock)
         .read(inputs.depth)
         .write(extents)
+        .constants(shared::StatisticalExtentBlocks{box})
         .dispatch(blocks.x * 8, blocks.y * 8);
-    graph.pass("statistical.extent", m_extent).read(extents).write(t.extent).constants(shared::StatisticalExtent{count}).dispatch(64);
+    graph.pass("statistical.extent", m_extent)
+        .read(inputs.viewBlock)
+        .read(extents)
+        .write(t.extent)
+        .constants(shared::StatisticalExtent{count})
+        .dispatch(64);
     t.texels = graph.buffer("statistical.texels", uint64_t(t.size.x) * t.size.y * 16);
     t.codes = graph.buffer("statistical.codes", uint64_t(t.size.x) * t.size.y * 4);
     graph.pass("statistical.texels", m_texels)

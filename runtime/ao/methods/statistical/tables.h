@@ -22,8 +22,8 @@ public:
     };
 
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, StatisticalTables& out);
-    // Passes: extent, texels, root, and for each of 0 to 3 levels layers and table. Texels double in size until the device can bind the
-    // tables.
+    // Passes: extent, texels, root, and for each of 0 to 3 levels layers and table. Texels double in size, with a warning, until the device
+    // can bind the tables.
     Tables add(graph::Graph& graph, const Inputs& inputs, shared::Box box, uint32_t levels);
     // addUniform(): `codes` become numbers of uniform layers. addPair(): writes the table of layers k and k + 1 to `pair`, of
     // bytes(size, 2).
@@ -37,6 +37,7 @@ private:
     gpu::Program m_extentBlocks, m_extent, m_texels;
     gpu::Program m_layers[4];  // by level; 0: uniform layers
     uint64_t m_largest = 0;    // largest storage buffer that the device can bind, bytes
+    bool m_warned = false;     // that texels are larger than asked for
 };
 
 }  // namespace obscura::ao
