@@ -9,8 +9,8 @@
 namespace obscura::truth {
 namespace {
 
-// Cache version: raise it when the same inputs give another result (rays, offsets, estimates).
-constexpr uint32_t kVersion = 1;
+// Cache versions: raise one when the same inputs give another result (rays, offsets, estimates).
+constexpr uint32_t kVersion = 1, kScreenVersion = 2;
 constexpr const char* kRays = "rays";
 
 std::string channelName(const char* kind, size_t index, const std::string& name) { return fmt::format("{}.{:02}.{}", kind, index, name); }
@@ -99,7 +99,7 @@ std::string worldKey(std::span<const scene::PosedPrimitive> primitives, const Wo
 
 std::string screenKey(const CapturedFrame& frame, std::span<const RayFalloff> falloffs, const ScreenOptions& options) {
     Hash hash;
-    hash.add("screen").add(kVersion).add(options.thickness).add(options.offset).add(options.tolerance);
+    hash.add("screen").add(kScreenVersion).add(options.thickness).add(options.offset).add(options.tolerance);
     add(hash, frame);
     add(hash, falloffs);
     add(hash, options);

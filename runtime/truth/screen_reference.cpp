@@ -36,6 +36,20 @@ struct Pending {
     std::vector<Sums> sums;  // one per falloff
 };
 
+// Where a receiver's rays start: `offset` metres along the normal. If that is in another texel and behind its surface, they start a quarter of
+// a pixel from the receiver instead, because all of them would be blocked where they start.
+glm::vec3 startOf(
+    const CapturedFrame& frame, const shared::View& view, glm::uvec2 texel, const glm::vec3& eye, const glm::vec3& n, float offset) {
+    const glm::vec3 start = eye + n * offset;
+    const float scale = view.orthographic > 0.5f ? 1.0f : -start.z;
+    const glm::vec2 at(start.x / scale * view.project.x + view.project.z, start.y / scale * view.project.y + view.project.w),
+        moved = glm::abs(at - glm::vec2(texel) - 0.5f);
+    const float farthest = std::max(moved.x, moved.y);
+    if (farthest < 0.5f || at.x < 0.0f || at.y < 0.0f || at.x >= float(frame.size.x) || at.y >= float(frame.size.y)) return start;
+    const size_t there = frame.index(uint32_t(at.x), uint32_t(at.y));
+    return frame.isSky(there) || -start.z <= frame.depth[there] ? start : eye + n * (offset * 0.25f / farthest);
+}
+
 std::vector<Pending> receiversOf(const CapturedFrame& frame, const ScreenOptions& options, size_t falloffs) {
     std::vector<Pending> list;
     const shared::View view = frame.view();
@@ -50,7 +64,7 @@ std::vector<Pending> receiversOf(const CapturedFrame& frame, const ScreenOptions
             const glm::vec3 towards = ortho ? glm::vec3(0, 0, 1) : -eye;
             const glm::vec3 n = glm::dot(frame.normals[at], towards) < 0.0f ? -frame.normals[at] : frame.normals[at];
             const float footprint = (ortho ? 1.0f : frame.depth[at]) / view.pixelsPerMetre;
-            const glm::vec3 p = eye + n * (options.offset * footprint);
+            const glm::vec3 p = startOf(frame, view, {x + frame.guard.x, y + frame.guard.y}, eye, n, options.offset * footprint);
             const uint32_t pixel = y * part.x + x;
             const float seed = std::bit_cast<float>(shared::receiverSeed(options.seed, pixel));
             list.push_back({pixel, {{p.x, p.y, p.z, 0.0f}, {n.x, n.y, n.z, seed}}, std::vector<Sums>(falloffs, Sums{})});

@@ -105,6 +105,24 @@ TEST_F(ScreenReferenceTest, openPlaneIsOpen) {
     }
 }
 
+// A wall seen at a grazing angle beside a thin pole nearer to the camera: the offset along the wall's normal ends in the pole's texel, behind
+// the pole. Its rays still start before the pole, so those that pass above or below its texel are free.
+TEST_F(ScreenReferenceTest, rayStartsInItsOwnTexel) {
+    for (const float side : {1.0f, -1.0f}) {
+        const auto at = [&](float x, float y, float px, float py) {  // whether eye-space (x, y) is in that texel, 0.1 m wide
+            return std::fabs(x - px) < 0.05f && std::fabs(y - py) < 0.05f;
+        };
+        const CapturedFrame frame = orthographic(
+            {32, 32}, {4, 4}, 0.1f, [&](float x, float y) { return at(x, y, side * 0.15f, 0.05f) ? 1.0f : 5.0f; },
+            [&](float x, float y) { return at(x, y, side * 0.05f, 0.05f) ? glm::vec3(side * 0.9f, 0.0f, 0.43589f) : glm::vec3(0, 0, 1); });
+        const Reference reference = trace(frame, {{rayFalloff("constant:3")}}, rays(2048));
+        const float beside = reference.channels[0].obscurance.at(side > 0 ? 16 : 15, 15);
+        printf("beside the pole: obscurance %.3f\n", double(beside));
+        EXPECT_LT(beside, 0.95f) << side;
+        EXPECT_GT(beside, 0.5f) << side;
+    }
+}
+
 // A valley of two walls, each 45 degrees from the view axis, 12 mm per pixel.
 TEST_F(ScreenReferenceTest, rightAngledWallMatchesTheClosedForm) {
     const float s = std::sqrt(0.5f), reach = 10.0f;
