@@ -122,5 +122,23 @@ TEST_F(HorizonSplitTest, horizonsAndRaysAreSeparatePasses) {
     EXPECT_FALSE(m_passes.count("horizon_split.blur"));
 }
 
+// Depth layers give surfaces their thickness for normal rays through the depth buffer alone; asked for without such rays, a warning says so.
+TEST_F(HorizonSplitTest, depthLayersWithoutNormalRaysAreLogged) {
+    Room room;
+    room.build();
+    const auto warns = [&](const Changes& changes) {
+        logged().clear();
+        run(room, values(changes));
+        return loggedContains("horizon_split: depth_layers ");
+    };
+    EXPECT_FALSE(warns({{"normal_rays", 0}}));
+    EXPECT_FALSE(warns({{"depth_layers", 3}}));
+    EXPECT_FALSE(warns({{"depth_layers", 3}, {"normal_rays", 0}, {"term", kMarching}}));
+    EXPECT_TRUE(warns({{"depth_layers", 3}, {"normal_rays", 0}}));
+    EXPECT_FALSE(warns({{"depth_layers", 3}, {"normal_rays", 0}})) << "once is enough";
+    m_library = std::make_unique<ao::Library>(m_device, m_shaders);
+    EXPECT_TRUE(warns({{"depth_layers", 3}, {"rays_in", 1}}));
+}
+
 }  // namespace
 }  // namespace obscura::test

@@ -138,10 +138,13 @@ public:
             .write(horizons)
             .constants(tracing)
             .dispatch(visible.x, visible.y);
+        const bool inVoxels = values.count("rays_in") && inputs.volume;
+        if (values.count("depth_layers") && (!constants.rays || inVoxels) && !std::exchange(m_warnedOfLayers, true))
+            graph.device().log(gpu::Severity::warning,
+                "horizon_split: depth_layers has no effect without normal rays through the depth buffer, which alone use them");
         if (constants.rays) {
             const graph::ImageId above = graph.image("horizon_split.above horizon", picture),
                                  both = graph.image("horizon_split.visibility", picture);
-            const bool inVoxels = values.count("rays_in") && inputs.volume;
             const graph::ImageId layers = inVoxels ? graph::ImageId{} : m_layerPass.addIfGiven(graph, inputs, values);
             graph::Pass& pass = graph.pass("horizon_split.normal rays", inVoxels ? m_voxelRays[size_t(inputs.volume.structure)]
                                                                         : layers ? m_layerRays
@@ -191,7 +194,7 @@ private:
     LayerPass m_layerPass;
     Denoise m_denoise;
     Gather m_gather;
-    bool m_warned = false;
+    bool m_warned = false, m_warnedOfLayers = false;
 };
 
 }  // namespace
