@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "ao/method.h"
-#include "ao/view.h"
 #include "ao/room.h"
+#include "ao/view.h"
 #include "graph/executor.h"
 #include "graph/read_back.h"
 

@@ -69,7 +69,7 @@ void main() {
     vec2 pixel = vec2(p + view.guard) + 0.5;
     float z = imageLoad(depth, ivec2(p + view.guard)).x, reach = halfWindow(view, box, z) / float(box.texelSide);
     vec2 centre = pixel / float(box.texelSide);
-    Column c = columnAt(centre, reach, size, 0u);
+    Column c = columnAt(centre, vec2(reach), size, 0u);
     vec4 sum = vec4(sumRoot(0u, c, size, vec3(1, 0, 0)).height.x, sumRoot(0u, c, size, vec3(0, 1, 0)).height.x,
         sumRoot(0u, c, size, vec3(0, 0, 1)).height.x, sumRoot(0u, c, size, vec3(0)).count.x);
     float perMetre = unitsPerMetre(view, box, extent);

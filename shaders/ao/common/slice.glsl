@@ -51,16 +51,16 @@ bool receive(View view, ivec2 p, float reach, out Receiver r) {
 // A slice's direction across the view ray, of unit length, and its direction on the screen.
 struct Slice {
     vec3 across;
-    vec2 along;  // px, unit length
+    vec2 along;  // px, of the length of a pixel's height
 };
 // Slices are evenly spaced on the screen, as published, which is uneven around the view ray away from the image centre; or, with
 // aroundRay, evenly around the view ray.
 Slice sliceAt(View view, Receiver r, float angle, bool aroundRay) {
     vec3 d = vec3(cos(angle), sin(angle), 0.0);
-    if (!aroundRay) return Slice(normalize(d - dot(d, r.v) * r.v), d.xy * sign(view.project.xy));
+    if (!aroundRay) return Slice(normalize(d - dot(d, r.v) * r.v), d.xy * view.project.xy / view.pixelsPerMetre);
     vec3 tangent = normalize(vec3(1, 0, 0) - r.v * r.v.x), across = tangent * d.x + cross(tangent, r.v) * d.y;
-    vec2 along = (view.orthographic > 0.5 ? across.xy : across.xy * -r.here.z + r.here.xy * across.z) * view.project.xy;
-    return Slice(across, along * inversesqrt(max(dot(along, along), 1e-20)));
+    vec2 along = view.orthographic > 0.5 ? across.xy : across.xy * -r.here.z + r.here.xy * across.z;
+    return Slice(across, along * inversesqrt(max(dot(along, along), 1e-20)) * view.project.xy / view.pixelsPerMetre);
 }
 // Jittered position of sample i of slice k, 0 to 1 along the reach.
 float samplePlace(Receiver r, uint k, uint i, uint steps) {

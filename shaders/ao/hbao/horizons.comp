@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant DEPTH_LAYERS
+#include "ao/common/pixel_shape.glsl"
 #include "ao/common/tile.glsl"
 #include "ao/hbao/constants.h"
 #include "shared/falloff.h"
@@ -96,10 +97,11 @@ void main() {
     vec2 size = vec2(view.size);
 
     float blocked = 0.0;
+    vec2 shape = pixelShape(view);
     uint shares = constants.side * constants.side;
     for (uint k = constants.side > 1u ? shareOf(view, p, constants.side) : 0u;;) {
         float angle = (float(k) + rotation) * kTwoPi / float(constants.directions);
-        vec2 direction = vec2(cos(angle), sin(angle));
+        vec2 direction = vec2(cos(angle), sin(angle)) * shape;
         float tangent = tangentSine(view, here, n, v, pixel, direction);
         // sin(t + bias)
         float horizon = min(tangent * cosBias + sqrt(max(1.0 - tangent * tangent, 0.0)) * sinBias, 1.0);

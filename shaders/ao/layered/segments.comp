@@ -74,8 +74,8 @@ void main() {
         vec3 tangent = normalize(vec3(1, 0, 0) - v * v.x), across = cross(tangent, v);
         float turn = kPi * (float(k) + noise.x) / sliceCount;
         vec3 od = tangent * cos(turn) + across * sin(turn);
-        vec2 step = (od.xy * perMetre + (orthographic ? vec2(0.0) : position.xy * od.z)) * view.project.xy;
-        step *= inversesqrt(max(dot(step, step), 1e-20));
+        vec2 step = od.xy * perMetre + (orthographic ? vec2(0.0) : position.xy * od.z);
+        step *= inversesqrt(max(dot(step, step), 1e-20)) * view.project.xy / view.pixelsPerMetre;  // as long as a pixel is high
         Receiver receiver = receiverOf(view, pixel, z, v, n, od, step);
         float nv = dot(n, v), no = dot(n, od), angle = atan(no, nv), sine = no * inversesqrt(max(no * no + nv * nv, 1e-12));
         // Distances to the buffers' edges along the step and against it, px.

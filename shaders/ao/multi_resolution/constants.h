@@ -23,8 +23,10 @@ struct MultiResolutionSample {  // sample*.comp
     float gain;
     uint disk;             // 16 points on a disk instead of every other texel of a square
     uint side;             // of the interleaving tile, px; 1: not interleaved
+    float columns;         // of pixels in a length of one row: 1 for square pixels
+    float ownRadius;       // texels, up to which the innermost points of the disk are the pixel itself
 };
-OBSCURA_SHARED_SIZE(MultiResolutionSample, 64);
+OBSCURA_SHARED_SIZE(MultiResolutionSample, 72);
 
 struct MultiResolutionFilter {  // filter.comp
     ivec2 origin;

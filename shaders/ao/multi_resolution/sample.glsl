@@ -57,29 +57,29 @@ vec3 sampled(ivec2 p, int share, int shares, out float count, out vec3 n) {
     bool none = radius < 1.0 || isSky(view, z);
     vec3 sum = vec3(0.0);
     count = 0.0;
+    vec2 shape = vec2(constants.columns, 1.0);
     if (constants.disk != 0u) {
         int points = none ? 0 : 16;
         if (shares > 1) {
-            for (int i = share; i < points; i += shares) tap(place, rho, last, ivec2(round(kDisk[i] * radius)), sum, count);
+            for (int i = share; i < points; i += shares) tap(place, rho, last, ivec2(round(kDisk[i] * radius * shape)), sum, count);
         } else {
             for (int i = 0; i < points; i += 2) {
-                tap(place, rho, last, ivec2(round(kDisk[i] * radius)), sum, count);
-                tap(place, rho, last, ivec2(round(kDisk[i + 1] * radius)), sum, count);
+                tap(place, rho, last, ivec2(round(kDisk[i] * radius * shape)), sum, count);
+                tap(place, rho, last, ivec2(round(kDisk[i + 1] * radius * shape)), sum, count);
             }
         }
         // At small radii the innermost points, the first four, are the pixel itself.
-        float itself = shares > 1 ? float(share < 4) : 4.0;
-        count -= !none && round(kDisk[0].x * radius) < 0.5 ? itself : 0.0;
+        count -= !none && radius <= constants.ownRadius ? (shares > 1 ? float(share < 4) : 4.0) : 0.0;
     } else {
         // An even number of texels, symmetric about the pixel, which is not among them: -5, -3, -1, 1, 3 and 5 times `spread`.
         int across = none ? 0 : radius < 3.0 ? 2 : radius < 5.0 ? 4 : 6;
         float end = float(across), spread = radius / (end - 1.0);
         if (shares > 1) {
             for (int i = share; i < across * across; i += shares)
-                tap(place, rho, last, ivec2(round((2.0 * vec2(i % across, i / across) + 1.0 - end) * spread)), sum, count);
+                tap(place, rho, last, ivec2(round((2.0 * vec2(i % across, i / across) + 1.0 - end) * spread * shape)), sum, count);
         } else {
             for (float y = 1.0 - end; y < end; y += 2.0)
-                for (float x = 1.0 - end; x < end; x += 2.0) tap(place, rho, last, ivec2(round(vec2(x, y) * spread)), sum, count);
+                for (float x = 1.0 - end; x < end; x += 2.0) tap(place, rho, last, ivec2(round(vec2(x, y) * spread * shape)), sum, count);
         }
     }
     n = place.surface.n;

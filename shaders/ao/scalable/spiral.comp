@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/depth_mips.glsl"
+#include "ao/common/pixel_shape.glsl"
 #include "ao/scalable/constants.h"
 #include "shared/octahedral.glsl"
 #include "shared/view.h"
@@ -29,11 +30,12 @@ float visibilityAt(View view, ivec2 texel, float z) {
     float reach = constants.radius * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : z);
     ivec2 p = texel - ivec2(view.guard);
     float spin = float((3 * p.x ^ p.y + p.x * p.y) * 10 & 0xffff) + 6.28318531 * frameShift(view).x;  // radians, wrapped: a hash
+    vec2 shape = pixelShape(view);
     float sum = 0.0, part = 1.0 / float(constants.samples);
     for (uint i = 0u;;) {
         float alpha = (float(i) + 0.5) * part, angle = alpha * float(constants.turns) * 6.28318531 + spin, l = alpha * reach;
         int level = clamp(int(floor(log2(l) - kFinest)), 0, kDepthLevels - 1);
-        ivec2 q = clamp(texel + ivec2(l * vec2(cos(angle), sin(angle))), ivec2(0), last);
+        ivec2 q = clamp(texel + ivec2(l * vec2(cos(angle), sin(angle)) * shape), ivec2(0), last);
         vec3 v = eyePosition(view, vec2(q) + 0.5, imageLoad(depths, mipTexel(padded, q, level)).x) - here;
         float vv = dot(v, v), f = max(r2 - vv, 0.0);
         sum += f * f * f * max((dot(v, n) - off) / (kEpsilon * r2 + vv), 0.0);

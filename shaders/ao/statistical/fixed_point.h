@@ -22,19 +22,20 @@ OBSCURA_SHARED_BEGIN
 struct Box {
     float halfWidth;     // of the box, metres
     float height;        // metres, along the normal
-    float largest;       // half width on the screen is at most this, px
+    float largest;       // half height on the screen is at most this, px
     uint texelSide;      // of the tables, px
     float limit;         // largest coordinate of a surface that counts, metres: limitOf()
-    uint unused;
+    float columns;       // of pixels in a length of one row: 1 for square pixels
 };
 OBSCURA_SHARED_SIZE(Box, 24);
 
 const float kMostSum = 2147483000.0f;
 
-// Pixels of a window with this half side, and one more texel on each side, in a frame of this size. Edge pixels fill the last texels.
+// Pixels of a window with this half height, and one more texel on each side, in a frame of this size. Edge pixels fill the last texels.
 OBSCURA_STATISTICAL_FUNCTION float pixelsOfWindow(Box box, float halfSide, uvec2 size) {
-    float side = 2.0f * (halfSide + float(box.texelSide)), width = float(size.x + box.texelSide), height = float(size.y + box.texelSide);
-    return (side < width ? side : width) * (side < height ? side : height);
+    float side = float(box.texelSide), width = 2.0f * (halfSide * box.columns + side), height = 2.0f * (halfSide + side);
+    float mostWidth = float(size.x + box.texelSide), mostHeight = float(size.y + box.texelSide);
+    return (width < mostWidth ? width : mostWidth) * (height < mostHeight ? height : mostHeight);
 }
 // Box::limit: with the largest window there are kLeastUnits a box height, before they are rounded down to a power of two.
 OBSCURA_STATISTICAL_FUNCTION float limitOf(Box box, uvec2 size) {
@@ -59,10 +60,10 @@ float nearestDepth(Extent e) { return uintBitsToFloat(~e.nearestInverted); }
 // Linear depth at which the tables' z is 0.
 float originOf(View view, Extent e) { return view.orthographic > 0.5 ? nearestDepth(e) : 0.0; }
 
-// Half the box's width, px.
+// Half the box's width, in heights of a pixel.
 float halfWidth(View view, Box box, float depth) { return box.halfWidth * view.pixelsPerMetre / (view.orthographic > 0.5 ? 1.0 : depth); }
 
-// Half the window's side, px.
+// Half the window's height, px.
 float halfWindow(View view, Box box, float depth) { return clamp(halfWidth(view, box, depth), 1.0, box.largest); }
 
 // Height of the box, metres: a box wider than its window is scaled down to it.

@@ -41,7 +41,7 @@ void main() {
     }
 
     // Whole texels: fractions of texels at the window's edge do not matter for the split.
-    float reach = halfWindow(view, box, z) / float(box.texelSide);
+    vec2 reach = halfWindow(view, box, z) / float(box.texelSide) * vec2(box.columns, 1.0);
     ivec2 low = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 - reach)), ivec2(0), ivec2(t));
     ivec2 high = clamp(ivec2(round(vec2(ivec2(t)) + 0.5 + reach)), ivec2(t) + 1, ivec2(constants.size));
     uint pitch = constants.size.x + 1u;

@@ -32,7 +32,8 @@ void main() {
     vec3 here = eyePosition(view, pixel, z);
     vec3 n = unpackNormal(imageLoad(normals, texel).x);
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
-    float reach = halfWindow(view, box, z), height = boxHeight(view, box, z), blocked = 0.0, count = 0.0;
+    vec2 reach = halfWindow(view, box, z) * vec2(box.columns, 1.0);
+    float height = boxHeight(view, box, z), blocked = 0.0, count = 0.0;
     // Lines are few, so they are shifted from pixel to pixel over a 4x4 tile and blurred; points are many and are not.
     float shift = constants.lines != 0u ? float(bayer16(uvec2(p))) * float(constants.samples) : 0.0;
     for (uint i = 0u; i < constants.samples; ++i) {

@@ -27,7 +27,7 @@ void main() {
     float z = imageLoad(depth, texel).x;
     vec2 pixel = vec2(texel) + 0.5, centre = pixel / float(box.texelSide);
     Shape shape = shapeOf(view, box, extent, pixel, z, imageLoad(normals, texel).x, constants.slope);
-    float reach = halfWindow(view, box, z) / float(box.texelSide);
+    vec2 reach = halfWindow(view, box, z) / float(box.texelSide) * vec2(box.columns, 1.0);
     uint at = 2u * (uint(p.y) * view.visible.x + uint(p.x));
     float fraction = 0.0, cells = 0.0;  // blocked fractions added up over cells that are not empty, and their number
     [[dont_unroll]] for (uint column = 0u; column < split; ++column, ++at) {

@@ -83,7 +83,7 @@ vec2 blockedBy(Sums sums, Shape s) {
 }
 
 // The column `index` of a pixel's window.
-Column columnAt(vec2 centre, float reach, uvec2 size, uint index) {
+Column columnAt(vec2 centre, vec2 reach, uvec2 size, uint index) {
     vec2 last = vec2(size), low = clamp(centre - reach, vec2(0.0), last), high = clamp(centre + reach, vec2(0.0), last);
     vec2 middle = split == 2u ? clamp(centre, vec2(0.0), last) : high;
     return Column(index == 0u ? low.x : middle.x, index == 0u ? middle.x : high.x, low.y, middle.y, high.y);

@@ -9,8 +9,9 @@ struct VolumetricLines {  // lines.comp
     float radius;     // metres, of the ball
     float thickness;  // metres, of all surfaces
     uint solid;       // 0: ball around the pixel, 1: its half above the tangent plane, 2: ball that touches the tangent plane at the pixel
+    float columns;    // of pixels in a length of one row: 1 for square pixels
 };
-OBSCURA_SHARED_SIZE(VolumetricLines, 16);
+OBSCURA_SHARED_SIZE(VolumetricLines, 20);
 
 OBSCURA_SHARED_END
 #endif

@@ -36,14 +36,14 @@ void main() {
     vec3 centre = constants.solid == 2u ? here + r * n : here;
     float centreDepth = -centre.z;
     bool halfBall = constants.solid == 1u, orthographic = view.orthographic > 0.5;
-    float scale = view.pixelsPerMetre / (orthographic ? 1.0 : max(-centre.z, 0.05 * z)) * r;  // px of the radius
+    float scale = view.pixelsPerMetre / (orthographic ? 1.0 : max(-centre.z, 0.05 * z)) * r;  // rows of the radius
     vec2 centrePixel = constants.solid == 2u ? pixelOf(view, vec3(centre.xy, min(centre.z, -0.05 * z))) : vec2(texel) + 0.5;
     float widens = orthographic || constants.solid == 0u ? 0.0 : 1.0 / max(centreDepth, 0.05 * z);
     float turn = 6.28318531 * fract((float(bayer16(uvec2(p))) + 0.5) / 16.0 + frameShift(view).x);
     float whole = 0.0, occupied = 0.0;
     for (uint i = 0u;;) {
         float angle = turn + 2.39996323 * float(i);
-        vec2 at = centrePixel + scale * sqrt((float(i) + 0.5) / float(constants.lines)) * vec2(cos(angle), sin(angle));
+        vec2 at = centrePixel + scale * sqrt((float(i) + 0.5) / float(constants.lines)) * vec2(constants.columns * cos(angle), sin(angle));
         ivec2 q = clamp(ivec2(floor(at)), ivec2(0), last);
         // The texel's view ray relative to the centre: points from + g along, with g the depth behind the centre. It is in the ball from g0
         // to g1.

@@ -20,6 +20,7 @@
 // table 7: downsample (n-1 times), sample (n), filter and upsample (n-1 each). The sample passes depend only on their own level, so a
 // GPU can overlap them. `interleave` interleaves the samples of the finest level.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -125,6 +126,7 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
         const float reach = inputs.falloff.reach, perTolerance = 1.0f / (values["tolerance"] * reach);
+        const float columns = std::abs(view.project.x) / view.pixelsPerMetre;
         const uint32_t planes = values.count("edges"), side = tileSide(values);
         const bool directed = values.count("obscurance") == kDirected;
         Programs& programs = m_programs[directed];
@@ -137,7 +139,8 @@ public:
             Level& level = levels[i];
             const bool isShared = i == 0 && side > 1;
             const shared::MultiResolutionSample constants{inputs.falloff, level.size, level.origin, level.area, level.texel,
-                values["first_radius"], values["max_radius"], values["gain"], values.count("pattern") > (i ? 1u : 0u), isShared ? side : 1};
+                values["first_radius"], values["max_radius"], values["gain"], values.count("pattern") > (i ? 1u : 0u), isShared ? side : 1,
+                columns, 2.5f / std::max(columns, 1.0f)};
             if (isShared) {
                 const graph::ImageId shares =
                     graph.image("multi_resolution.shares", {VK_FORMAT_R16G16_SFLOAT, view.visible.x, view.visible.y});

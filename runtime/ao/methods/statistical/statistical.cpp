@@ -16,6 +16,7 @@
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: extent, texels, for
 // each level layers and table (rows, columns), evaluate.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "ao/denoise.h"
@@ -112,7 +113,7 @@ public:
         const float R = quadraticReach(inputs.falloffDesc);
         const uint32_t layering = values.count("layers"), estimator = values.count("estimator");
         Box box{values["radius"] * R, values["height"] * R, std::max(values["largest"] * float(view.visible.y), 1.0f),
-            1u << values.count("tables"), 0.0f, 0};
+            1u << values.count("tables"), 0.0f, std::abs(view.project.x) / view.pixelsPerMetre};
         const graph::ImageId visibility = graph.image("statistical.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
         if (estimator != kTables) {
             const shared::StatisticalSamples constants{

@@ -3,6 +3,7 @@
 #include "ao/statistical/constants.h"
 
 #include <cassert>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -48,6 +49,7 @@ StatisticalTables::Tables StatisticalTables::add(graph::Graph& graph, const Inpu
     assert(4.0f * (box.largest + float(box.texelSide)) * (box.largest + float(box.texelSide)) < 1.0e8f &&
            "statistical: the window is too large for 32-bit sums: lower `largest` or the image height");
 
+    box.columns = std::abs(view.project.x) / view.pixelsPerMetre;
     box.limit = shared::limitOf(box, view.size);
     Tables t{box, sizeOf(box.texelSide), {}, {}, {}, {}, {}};
     const uvec2 blocks{(view.size.x + kBlock.x - 1) / kBlock.x, (view.size.y + kBlock.y - 1) / kBlock.y};

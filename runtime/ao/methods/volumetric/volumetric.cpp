@@ -11,6 +11,7 @@
 // their cosine, and a finite `thickness`.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: lines, blur.
+#include <cmath>
 #include <iterator>
 
 #include "ao/denoise.h"
@@ -63,8 +64,8 @@ public:
 
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
-        const shared::VolumetricLines constants{
-            values.count("lines"), radiusOf(inputs, values), values["thickness"], values.count("solid")};
+        const shared::VolumetricLines constants{values.count("lines"), radiusOf(inputs, values), values["thickness"], values.count("solid"),
+            std::abs(inputs.view.project.x) / inputs.view.pixelsPerMetre};
         const graph::ImageId visibility = graph.image("volumetric.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph.pass("volumetric.lines", m_lines)
             .read(inputs.viewBlock)
