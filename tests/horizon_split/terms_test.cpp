@@ -122,6 +122,18 @@ TEST_F(HorizonSplitTest, horizonsAndRaysAreSeparatePasses) {
     EXPECT_FALSE(m_passes.count("horizon_split.blur"));
 }
 
+// A plate 330 radii before the bottom of a hole.
+TEST_F(HorizonSplitTest, endlessThicknessHasNoEnd) {
+    Room room = hole(0.0f);
+    std::fill(room.depth.begin(), room.depth.end(), 10.0f);
+    room.depth[160 * 321 + 160] = 50.0f;
+    const auto at = [&](const char* preset, float thickness) {
+        return run(room, values({{"thickness", thickness}, {"term", kMarching}, {"blur", 0}}, preset), kFalloff).at(0);
+    };
+    EXPECT_GT(at("paper", 100), 0.9f);
+    EXPECT_LT(at("paper", 99), 0.1f);
+}
+
 // Depth layers give surfaces their thickness for normal rays through the depth buffer alone; asked for without such rays, a warning says so.
 TEST_F(HorizonSplitTest, depthLayersWithoutNormalRaysAreLogged) {
     Room room;

@@ -34,16 +34,20 @@ TEST_F(Obscurance, combinesMaximumAndMean) {
     EXPECT_EQ(run(room, values({}, "paper"), "constant:0.001").at(middle), 0.0f) << "no samples at any level";
 }
 
-// A pixel at the bottom of a shaft: all samples of its level 0 are above it.
-TEST_F(Obscurance, blockedHemisphereIsOne) {
+// A pixel at the bottom of a shaft: all samples of its level 0 are above it, so the level's mean is the gain; of coarser levels none is.
+TEST_F(Obscurance, blockedHemisphereIsTheGain) {
     Room room = wall(1.0f);
     const uint32_t x = room.width / 2, y = room.height / 2;
     room.depth[size_t(y) * room.width + x] = 4.0f;
-    for (const char* preset : presets()) {
-        const Picture picture = run(room, values({}, preset), "constant:5");
-        EXPECT_GT(picture.at(size_t(y - room.guard) * room.visibleWidth() + x - room.guard), 0.98f) << preset;
-        EXPECT_LE(highest(picture), 1.0f);
-    }
+    for (const char* preset : presets())
+        for (const float gain : {0.25f, 0.5f, 1.0f}) {
+            readLevel("near", 1);
+            const Picture picture = run(room, values({{"gain", gain}}, preset), "constant:5");
+            EXPECT_NEAR(maximumAt(x - room.guard, y - room.guard), gain, 0.02f * gain) << preset;
+            const float all = picture.at(size_t(y - room.guard) * room.visibleWidth() + x - room.guard);
+            EXPECT_GT(all, 0.98f * gain) << preset;
+            EXPECT_LT(all, 1.0f - (1.0f - gain) * (1.0f - gain) + 0.001f) << preset << ": more than the maximum and mean together";
+        }
 }
 
 TEST_F(Obscurance, isAtLeastTheMaximumOfTheFinestLevel) {

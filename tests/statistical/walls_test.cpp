@@ -196,6 +196,29 @@ TEST_F(StatisticalTest, resultIsIndependentOfTheFrameIndex) {
     }
 }
 
+// Along the view a wall that faces the camera is as along its normal, whatever its normals; a slanted floor darkens itself.
+TEST_F(StatisticalTest, viewAlignedBoxesNeedNoNormals) {
+    const Changes view = {{"align", 1}};
+    for (const Estimator estimator : {kTables, kPoints, kLines})
+        for (const Layering layers : {kFour, kUniform16}) {
+            if (estimator != kTables && layers != kFour) continue;
+            Changes along = {{"estimator", float(estimator)}, {"layers", float(layers)}};
+            Room facing = plane({0, 0, 1});
+            for (uint32_t y = 40; y < 60; ++y)
+                for (uint32_t x = 60; x < 100; ++x) facing.depth[size_t(y) * facing.width + x] = 1.2f;
+            const Picture normal = run(facing, values(along));
+            along.push_back(view[0]);
+            const Picture aligned = run(facing, values(along));
+            float most = 0.0f;
+            for (size_t i = 0; i < normal.size(); ++i) most = std::max(most, std::abs(normal[i] - aligned[i]));
+            EXPECT_LT(most, 0.001f) << estimator << ", " << layers;
+            EXPECT_GT(highest(aligned), 0.1f);
+            for (size_t i = 0; i < facing.depth.size(); ++i) facing.normals[4 * i] = 0.6f, facing.normals[4 * i + 2] = 0.8f;
+            if (estimator != kLines) EXPECT_EQ(run(facing, values(along)), aligned);  // the blur of lines needs them
+            EXPECT_GT(mean(run(plane({0, 1, 0}, 20.0f), values(along))), 0.02);
+        }
+}
+
 TEST_F(StatisticalTest, limitedWindowScalesTheBox) {
     // Orthographic, 5 cm per px, so that all windows have the same width: 16 px, limited to 8.8 px.
     Room room;

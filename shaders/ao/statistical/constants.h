@@ -33,8 +33,10 @@ struct StatisticalEvaluate {  // evaluate.comp
     uvec2 size;   // of the tables, texels
     float slope;
     float gain;
+    uint viewAligned;  // 1: boxes stand along the view axis, not the normal
+    uint unused;
 };
-OBSCURA_SHARED_SIZE(StatisticalEvaluate, 40);
+OBSCURA_SHARED_SIZE(StatisticalEvaluate, 48);
 
 struct StatisticalUniform {  // uniform.comp
     Box box;
@@ -43,8 +45,10 @@ struct StatisticalUniform {  // uniform.comp
     float gain;
     uint isFirst;
     uint isLast;
+    uint viewAligned;  // as in StatisticalEvaluate
+    uint unused;
 };
-OBSCURA_SHARED_SIZE(StatisticalUniform, 48);
+OBSCURA_SHARED_SIZE(StatisticalUniform, 56);
 
 struct StatisticalSamples {  // samples.comp
     Box box;
@@ -52,8 +56,10 @@ struct StatisticalSamples {  // samples.comp
     float gain;
     uint samples;
     uint lines;
+    uint viewAligned;  // as in StatisticalEvaluate
+    uint unused;
 };
-OBSCURA_SHARED_SIZE(StatisticalSamples, 40);
+OBSCURA_SHARED_SIZE(StatisticalSamples, 48);
 
 OBSCURA_SHARED_END
 #endif

@@ -36,7 +36,7 @@ void main() {
         return;
     }
     vec2 pixel = vec2(texel) + 0.5, centre = pixel / float(box.texelSide);
-    Shape shape = shapeOf(view, box, extent, pixel, z, imageLoad(normals, texel).x, constants.slope);
+    Shape shape = shapeOf(view, box, extent, pixel, z, imageLoad(normals, texel).x, constants.slope, constants.viewAligned != 0u);
     vec2 reach = halfWindow(view, box, z) / float(box.texelSide) * vec2(box.columns, 1.0);
     float blocked = 0.0, cells = 0.0;  // blocked fractions added up over cells that are not empty, and their number
     [[dont_unroll]] for (uint column = 0u; column < split; ++column) {

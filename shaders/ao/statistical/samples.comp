@@ -30,7 +30,7 @@ void main() {
     }
     vec2 pixel = vec2(texel) + 0.5;
     vec3 here = eyePosition(view, pixel, z);
-    vec3 n = unpackNormal(imageLoad(normals, texel).x);
+    vec3 n = constants.viewAligned != 0u ? vec3(0, 0, 1) : unpackNormal(imageLoad(normals, texel).x);
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     vec2 reach = halfWindow(view, box, z) * vec2(box.columns, 1.0);
     float height = boxHeight(view, box, z), blocked = 0.0, count = 0.0;

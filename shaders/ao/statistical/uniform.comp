@@ -26,7 +26,7 @@ void main() {
     ivec2 texel = p + ivec2(view.guard);
     float z = imageLoad(depth, texel).x;
     vec2 pixel = vec2(texel) + 0.5, centre = pixel / float(box.texelSide);
-    Shape shape = shapeOf(view, box, extent, pixel, z, imageLoad(normals, texel).x, constants.slope);
+    Shape shape = shapeOf(view, box, extent, pixel, z, imageLoad(normals, texel).x, constants.slope, constants.viewAligned != 0u);
     vec2 reach = halfWindow(view, box, z) / float(box.texelSide) * vec2(box.columns, 1.0);
     uint at = 2u * (uint(p.y) * view.visible.x + uint(p.x));
     float fraction = 0.0, cells = 0.0;  // blocked fractions added up over cells that are not empty, and their number

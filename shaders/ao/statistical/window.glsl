@@ -60,13 +60,13 @@ Sums NAME(uint layer, Column c, uvec2 size, vec3 up) {                          
 
 // The box of a pixel.
 struct Shape {
-    vec3 up;          // normal, metres per unit
+    vec3 up;          // axis, metres per unit: the normal, or [eq. 4] the view axis
     float base;       // height of the pixel above the tangent plane's parallel through the tables' origin, metres
     float height;     // of the box, metres
     float slope;
 };
-Shape shapeOf(View view, Box box, Extent extent, vec2 pixel, float z, uint normal, float slope) {
-    vec3 here = eyePosition(view, pixel, z), n = unpackNormal(normal);
+Shape shapeOf(View view, Box box, Extent extent, vec2 pixel, float z, uint normal, float slope, bool viewAligned) {
+    vec3 here = eyePosition(view, pixel, z), n = viewAligned ? vec3(0, 0, 1) : unpackNormal(normal);
     if (dot(n, towardsEye(view, here)) < 0.0) n = -n;
     return Shape(n / unitsPerMetre(view, box, extent), dot(vec3(here.xy, originOf(view, extent) - z), n), boxHeight(view, box, z), slope);
 }

@@ -36,6 +36,7 @@ const char* const kTerms[] = {"both", "horizon", "normal rays", "ray marching"};
 const char* const kSpaces[] = {"depth", "voxels"};
 const char* const kBlurs[] = {"none", "depth", "surface"};
 
+constexpr float kEndlessThickness = 100.0f;  // radii, of which surfaces are endless
 const Parameter kParameters[] = {
     {"directions", "", 1, 24, 8, true, {},
         "Directions around the normal, N_d. Cost grows with directions x steps x (1 + normal rays). Too few: noise."},
@@ -49,11 +50,13 @@ const Parameter kParameters[] = {
         "image. Voxels need a volume and are no finer than its cells."},
     {"radius", "m", 0, 100, 0, false, {},
         "Radius of influence, R, at most the falloff's reach; 0: that reach. Shorter: denser samples, but wide occlusion is lost."},
-    {"thickness", "R", 0.01f, 100, 0.15f, false, {},
-        "Thickness of surfaces that block normal rays, in radii; endless in the paper. Too low: light leaks through solid objects; too "
+    {"thickness", "R", 0.01f, kEndlessThickness, 0.15f, false, {},
+        "Thickness of surfaces that block normal rays, in radii; 100: endless, as in the paper. Too low: light leaks through solid "
+        "objects; too "
         "high: dark halos around foreground objects."},
-    {"horizon_thickness", "R", 0.01f, 100, 0.35f, false, {},
-        "Thickness of surfaces that raise a horizon, in radii; endless in the paper. Too low: light leaks through solid objects; too high: "
+    {"horizon_thickness", "R", 0.01f, kEndlessThickness, 0.35f, false, {},
+        "Thickness of surfaces that raise a horizon, in radii; 100: endless, as in the paper. Too low: light leaks through solid objects; "
+        "too high: "
         "dark halos around foreground objects."},
     {"spacing", "", 0, 1, 0.6f, false, {},
         "Spacing of samples along a line: 0 even, as in the paper; 1 quadratic, denser near the pixel. Too low: contact shadows weaken; "
@@ -70,10 +73,10 @@ const Parameter kParameters[] = {
         "5x5 blur that removes the 4x4 noise pattern: weighted by depth, as in the paper, or by depth and normal. None: the pattern shows; "
         "by depth: it stays on slanted surfaces."},
 };
-const Setting kPaperFast[] = {{"directions", 6}, {"steps", 9}, {"normal_rays", 0}, {"thickness", 100}, {"horizon_thickness", 100},
+const Setting kPaperFast[] = {{"directions", 6}, {"steps", 9}, {"normal_rays", 0}, {"thickness", kEndlessThickness},
+    {"horizon_thickness", kEndlessThickness}, {"spacing", 0}, {"blur", kDepthDeviation}};
+const Setting kPaper[] = {{"directions", 7}, {"steps", 12}, {"thickness", kEndlessThickness}, {"horizon_thickness", kEndlessThickness},
     {"spacing", 0}, {"blur", kDepthDeviation}};
-const Setting kPaper[] = {
-    {"directions", 7}, {"steps", 12}, {"thickness", 100}, {"horizon_thickness", 100}, {"spacing", 0}, {"blur", kDepthDeviation}};
 const Setting kQuality[] = {{"directions", 18}, {"steps", 25}, {"normal_rays", 2}};
 const Preset kPresets[] = {
     {"default", "8 directions x 18 steps, one normal ray.", {}},
@@ -82,7 +85,8 @@ const Preset kPresets[] = {
     {"paper",
         "The setting of the paper's table 1: 7 directions x 12 steps, one normal ray, even spacing, endless thickness, blur by depth.",
         {kPaper, std::size(kPaper)}},
-    {"quality", "18 directions x 25 steps, two normal rays: the paper's best.", {kQuality, std::size(kQuality)}},
+    {"quality", "18 directions x 25 steps, two normal rays, the paper's highest counts, with our thicknesses, spacing and blur.",
+        {kQuality, std::size(kQuality)}},
 };
 const MethodInfo kInfo{"horizon_split", "Horizon-split ambient occlusion", "Dimitrov, Bavoil, Sainz: Horizon-Split Ambient Occlusion, 2008",
     "Traces horizons around the normal and integrates below them in closed form; rays cover what is above.", kDepth | kNormals,
@@ -117,7 +121,7 @@ public:
         const float radius = radiusOf(inputs, values);
         shared::HorizonSplitMarch constants{inputs.falloff, sharedOut(values.count("directions"), side), values.count("steps"),
             values.count("normal_rays"), radius, values["spacing"], values["jitter"], values["offset"],
-            values["horizon_thickness"] * radius, values["thickness"] * radius, side};
+            thicknessOf(values, "horizon_thickness", radius), thicknessOf(values, "thickness", radius), side};
         if (term == kHorizon) constants.rays = 0;
         if (term == kNormalRays || term == kMarching) constants.rays = std::max(constants.rays, 1u);
 
@@ -165,11 +169,14 @@ public:
     // Everything behind the horizon counts as blocked, although surfaces have a thickness; ray marching alone has no horizon.
     Blocking blocking(const Inputs& inputs, const Values& values) const override {
         const float radius = radiusOf(inputs, values);
-        return values.count("term") == kMarching ? Blocking{Blocking::kEndless, values["thickness"] * radius}
+        return values.count("term") == kMarching ? Blocking{Blocking::kEndless, thicknessOf(values, "thickness", radius)}
                                                  : Blocking{radius, Blocking::kEndless};
     }
 
 private:
+    static float thicknessOf(const Values& values, const char* id, float radius) {
+        return values[id] < kEndlessThickness ? values[id] * radius : Blocking::kEndless;
+    }
     static float radiusOf(const Inputs& inputs, const Values& values) {
         const float reach = inputs.falloff.reach;
         return values["radius"] > 0.0f ? std::min(values["radius"], reach) : reach;

@@ -33,6 +33,7 @@ enum Estimator : uint32_t { kTables, kPoints, kLines };
 const char* const kEstimators[] = {"tables", "points", "lines"};
 const char* const kLayerings[] = {"one", "2 adaptive", "4 adaptive", "8 adaptive", "16 uniform", "64 uniform"};
 constexpr uint32_t kFirstUniform = 4;  // index in kLayerings
+const char* const kAxes[] = {"normal", "view"};
 const char* const kSizes[] = {"full", "half", "quarter"};
 
 const Parameter kParameters[] = {
@@ -57,6 +58,9 @@ const Parameter kParameters[] = {
     {"largest", "", 0.01f, 0.5f, 0.22f, false, {},
         "Largest half width on the screen, in image heights. It bounds the integer sums. Too high: they lose precision; too low: wide "
         "occlusion is lost close up."},
+    {"align", "", 0, 1, 0, true, {kAxes, 2},
+        "What the box stands along: the surface's normal, or the camera's view axis, as in the paper's section 3. Along the view: slanted "
+        "surfaces darken themselves."},
     {"estimator", "", 0, 2, 0, true, {kEstimators, 3},
         "Summed-area tables, or for comparison samples in the same box: points, or lines along the normal with a 5x5 blur."},
     {"samples", "", 1, 1024, 256, true, {},
@@ -71,7 +75,11 @@ const Setting kPaperQuarter[] = {
 const Setting kQuality[] = {{"tables", 0}};
 const Preset kPresets[] = {
     {"default", "4 adaptive layers, four quadrants, tables of half size.", {}},
-    {"paper", "4 adaptive layers, one region, tables of full size, as in most of the paper's figures.", {kPaper, std::size(kPaper)}},
+    {"paper",
+        "4 adaptive layers, one region, tables of full size, as in most of the paper's figures; it gives no size, slope and gain, so these "
+        "are "
+        "ours.",
+        {kPaper, std::size(kPaper)}},
     {"paper_half", "Preset paper with tables of half size.", {kPaperHalf, std::size(kPaperHalf)}},
     {"paper_quarter", "Preset paper with tables of quarter size.", {kPaperQuarter, std::size(kPaperQuarter)}},
     {"quality", "4 adaptive layers, four quadrants, tables of full size.", {kQuality, std::size(kQuality)}},
@@ -117,7 +125,7 @@ public:
         const graph::ImageId visibility = graph.image("statistical.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
         if (estimator != kTables) {
             const shared::StatisticalSamples constants{
-                box, values["slope"], values["gain"], values.count("samples"), estimator == kLines ? 1u : 0u};
+                box, values["slope"], values["gain"], values.count("samples"), estimator == kLines ? 1u : 0u, values.count("align"), 0};
             graph.pass("statistical.samples", m_samples)
                 .read(inputs.viewBlock)
                 .read(inputs.depth)
@@ -130,7 +138,7 @@ public:
 
         const bool adaptive = layering < kFirstUniform;
         const Tables t = m_tables.add(graph, inputs, box, adaptive ? layering : 0);
-        const shared::StatisticalEvaluate constants{t.box, t.size, values["slope"], values["gain"]};
+        const shared::StatisticalEvaluate constants{t.box, t.size, values["slope"], values["gain"], values.count("align"), 0};
         const uint32_t quadrants = values.count("quadrants");
         if (!adaptive) {
             addUniform(graph, inputs, constants, t, layering == kFirstUniform ? 16 : 64, quadrants, visibility);
@@ -174,7 +182,8 @@ private:
                 .read(pair)
                 .write(blocked)
                 .write(visibility)
-                .constants(shared::StatisticalUniform{t.box, t.size, evaluate.slope, evaluate.gain, k == 0, k + 2 == layers})
+                .constants(shared::StatisticalUniform{
+                    t.box, t.size, evaluate.slope, evaluate.gain, k == 0, k + 2 == layers, evaluate.viewAligned, 0})
                 .dispatch(visible.x, visible.y);
         }
     }
