@@ -90,6 +90,19 @@ inline std::vector<Solid> mirrored(std::vector<Solid> solids, int axis) {
     }
     return solids;
 }
+// The same frame upside down: a projection whose y points up in the image.
+inline Room upsideDown(Room room) {
+    for (uint32_t y = 0; y < room.height / 2; ++y) {
+        const auto swapRows = [&](std::vector<float>& texels, size_t each) {
+            const size_t row = each * room.width, other = room.height - 1 - y;
+            std::swap_ranges(texels.begin() + long(y * row), texels.begin() + long((y + 1) * row), texels.begin() + long(other * row));
+        };
+        swapRows(room.depth, 1);
+        swapRows(room.normals, 4);
+    }
+    room.projection[5] = -room.projection[5];
+    return room;
+}
 inline Picture mirrored(const Picture& picture, int axis) {
     Picture result(picture.size());
     for (uint32_t y = 0; y < kVisibleHeight; ++y)

@@ -105,12 +105,13 @@ World hall() {
 }
 
 TEST_F(Properties, mirroredWorldGivesTheMirroredPicture) {
-    const Room room = seen(hall(), {}), mirrors[] = {seen(mirrored(hall(), 0), {}), seen(mirrored(hall(), 1), {})};
+    const Room room = seen(hall(), {}), mirrors[] = {seen(mirrored(hall(), 0), {}), seen(mirrored(hall(), 1), {})},
+               flipped = upsideDown(room);
     eachRow("mirror", &Row::mirror, [&](const ao::Values& values) {
         const Picture picture = calm(room, values);
         double most = 0.0;
         for (int axis = 0; axis < 2; ++axis) most = std::max(most, apart(picture, mirrored(calm(mirrors[axis], values), axis)).most);
-        return most;
+        return std::max(most, apart(picture, mirrored(calm(flipped, values), 1)).most);
     });
 }
 

@@ -214,7 +214,9 @@ TEST_F(StatisticalTest, viewAlignedBoxesNeedNoNormals) {
             EXPECT_LT(most, 0.001f) << estimator << ", " << layers;
             EXPECT_GT(highest(aligned), 0.1f);
             for (size_t i = 0; i < facing.depth.size(); ++i) facing.normals[4 * i] = 0.6f, facing.normals[4 * i + 2] = 0.8f;
-            if (estimator != kLines) EXPECT_EQ(run(facing, values(along)), aligned);  // the blur of lines needs them
+            if (estimator != kLines) {  // the blur of lines needs them
+                EXPECT_EQ(run(facing, values(along)), aligned);
+            }
             EXPECT_GT(mean(run(plane({0, 1, 0}, 20.0f), values(along))), 0.02);
         }
 }
