@@ -36,8 +36,8 @@ struct Pending {
     std::vector<Sums> sums;  // one per falloff
 };
 
-// Where a receiver's rays start: `offset` metres along the normal. If that is in another texel and behind its surface, they start a quarter of
-// a pixel from the receiver instead, because all of them would be blocked where they start.
+// Where a receiver's rays start: `offset` metres along the normal. If that is in another texel and behind its surface, they start a
+// quarter of a pixel from the receiver instead, because all of them would be blocked where they start.
 glm::vec3 startOf(
     const CapturedFrame& frame, const shared::View& view, glm::uvec2 texel, const glm::vec3& eye, const glm::vec3& n, float offset) {
     const glm::vec3 start = eye + n * offset;

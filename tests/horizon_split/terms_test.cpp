@@ -134,7 +134,8 @@ TEST_F(HorizonSplitTest, endlessThicknessHasNoEnd) {
     EXPECT_LT(at("paper", 99), 0.1f);
 }
 
-// Depth layers give surfaces their thickness for normal rays through the depth buffer alone; asked for without such rays, a warning says so.
+// Depth layers give surfaces their thickness for normal rays through the depth buffer alone; asked for without such rays, a warning says
+// so.
 TEST_F(HorizonSplitTest, depthLayersWithoutNormalRaysAreLogged) {
     Room room;
     room.build();

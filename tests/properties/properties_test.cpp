@@ -1,6 +1,6 @@
-// What holds for every method: a world and its mirror image, an orthographic camera whose plane is elsewhere, one pixel far away, sky in the
-// place of a distant wall, pixels that are not square, wide and narrow fields of view, a near plane at a millimetre. A row of kRows is a
-// method and preset; a method without a row must hold to the row of "".
+// What holds for every method: a world and its mirror image, an orthographic camera whose plane is elsewhere, one pixel far away, sky in
+// the place of a distant wall, pixels that are not square, wide and narrow fields of view, a near plane at a millimetre. A row of kRows is
+// a method and preset; a method without a row must hold to the row of "".
 #include <map>
 
 #include "properties/picture.h"

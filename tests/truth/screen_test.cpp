@@ -105,8 +105,8 @@ TEST_F(ScreenReferenceTest, openPlaneIsOpen) {
     }
 }
 
-// A wall seen at a grazing angle beside a thin pole nearer to the camera: the offset along the wall's normal ends in the pole's texel, behind
-// the pole. Its rays still start before the pole, so those that pass above or below its texel are free.
+// A wall seen at a grazing angle beside a thin pole nearer to the camera: the offset along the wall's normal ends in the pole's texel,
+// behind the pole. Its rays still start before the pole, so those that pass above or below its texel are free.
 TEST_F(ScreenReferenceTest, rayStartsInItsOwnTexel) {
     for (const float side : {1.0f, -1.0f}) {
         const auto at = [&](float x, float y, float px, float py) {  // whether eye-space (x, y) is in that texel, 0.1 m wide

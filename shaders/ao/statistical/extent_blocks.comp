@@ -1,5 +1,5 @@
-// Extent of each block of the frame, edge pixels repeated to fill the tables' last texels: nearest and furthest depth, largest x or y, sum of the largest coordinates. In: linear depth. Out: one
-// Extent per block; orthographic, its sum is of depths beyond its nearest.
+// Extent of each block of the frame, edge pixels repeated to fill the tables' last texels: nearest and furthest depth, largest x or y, sum
+// of the largest coordinates. In: linear depth. Out: one Extent per block; orthographic, its sum is of depths beyond its nearest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/statistical/constants.h"

@@ -1,9 +1,9 @@
 // Fixed point of the frame: units per metre, chosen so that no window's sum exceeds 32 bits.
 //
-// A window has at most N pixels, the magnitude of a coordinate is at most M, the magnitudes over the frame add up to T, and rounding adds at
-// most one unit a pixel. So a sum is at most min(N M, T) units + N, which is kept below 2^31. N is the window of the pixel nearest to the
-// camera plus one table texel on each side. Without T a single distant pixel would take the precision of all others. Units are a power of
-// two, so that small camera movements do not change them.
+// A window has at most N pixels, the magnitude of a coordinate is at most M, the magnitudes over the frame add up to T, and rounding adds
+// at most one unit a pixel. So a sum is at most min(N M, T) units + N, which is kept below 2^31. N is the window of the pixel nearest to
+// the camera plus one table texel on each side. Without T a single distant pixel would take the precision of all others. Units are a power
+// of two, so that small camera movements do not change them.
 //
 // M has a limit, at which a box is a few pixels wide and at least kLeastUnits high: surfaces beyond it are as sky.
 // Depth is measured from the camera or, orthographic, from the nearest surface, because that camera's plane is arbitrary.
