@@ -13,9 +13,16 @@ struct Direction {
     uint intervals;    // a multiple of 2^(levels - 1)
     uint base;         // first cell of this direction
     uint total;        // cells of all levels: level n begins at total - (total >> n shift), see levelBase()
+    float from;        // along the direction on the image plane at depth 1 m: the image centre, metres
+    float step;        // and one pixel, metres
+    float slope;       // s, of the second receiver angle; see kFlattest
+    float perRise;     // pixels at depth 1 m per metre of m0 - m1
 };
-OBSCURA_SHARED_SIZE(Direction, 32);
+OBSCURA_SHARED_SIZE(Direction, 48);
 
+// A receiver angle steeper than a view ray is flat would see the farther of two points on that ray above the nearer. So |s| is at most this
+// fraction of 1 / |x| at the image's edges at depth 1 m.
+const float kFlattest = 0.95f;
 const uint kCellsWide = 4096u;  // texels per row of the image of all cells; supported by every device
 
 const uint kNearPart = 1u, kFarPart = 2u;
@@ -25,8 +32,8 @@ struct FarFieldConstants {
     uint segments;       // of each sector
     uint levels;         // of the pyramid of intervals
     float interval;      // B0, px
+    float perInterval;   // 256 / B0
     float lineStep;      // px from line to line
-    float slope;         // s, of the second receiver angle
     float connection;    // weight of the line to the previous point: 0 slab, 1 connection
     float unit;          // metres: the falloff's length; depths are kept as unit / depth
     uint taps;           // samples of the near field in each segment; 0: no near field

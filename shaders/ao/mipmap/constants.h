@@ -4,11 +4,6 @@
 #include "shared/types.h"
 OBSCURA_SHARED_BEGIN
 
-struct MipmapReduce {  // reduce.comp
-    uint nearest;  // 1: the nearest of the texels that a texel covers; 0: their mean
-};
-OBSCURA_SHARED_SIZE(MipmapReduce, 4);
-
 struct MipmapObscurance {  // obscurance.comp
     uint directions;  // K
     float factor;     // from step to step

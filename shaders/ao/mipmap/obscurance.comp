@@ -24,8 +24,9 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
-    float z = texelFetch(pyramid, texel, 0).x;
-    if (isSky(view, z)) {
+    vec2 surface = texelFetch(pyramid, texel, 0).xy;
+    float z = surface.x;
+    if (surface.y == 0.0) {
         imageStore(visibility, p, vec4(1.0));
         return;
     }
@@ -43,26 +44,30 @@ void main() {
         bool more = true;
         while (more) {
             vec2 point;
+            float covered = 1.0;
             bool found = false;
             while (!found && more) {
                 more = t < edge;
                 float at = min(t, edge);
-                float level = log2(max(width * at, 1.0)), sampled;
+                float level = log2(max(width * at, 1.0));
+                vec2 sampled;  // depth times coverage, coverage
                 vec2 where = r.pixel + at * s.along;
                 if (kThin != 0u) {
                     int mip = min(int(level + 0.5), textureQueryLevels(pyramid) - 1);
-                    sampled = texelFetch(pyramid, min(ivec2(where) >> mip, textureSize(pyramid, mip) - 1), mip).x;
+                    ivec2 size = textureSize(pyramid, mip);
+                    sampled = texelFetch(pyramid, min(ivec2(where * texelSize * vec2(size)), size - 1), mip).xy;
                 } else {
-                    sampled = textureLod(pyramid, where * texelSize, level).x;
+                    sampled = textureLod(pyramid, where * texelSize, level).xy;
                 }
-                point = pointAt(s, sampled, at);
-                found = sampled < view.skyDepth && (kThin != 0u || raises(h, point));
+                covered = sampled.y;
+                point = pointAt(s, sampled.x / max(covered, 1e-6), at);
+                found = covered > 1e-3 && (kThin != 0u || raises(h, point));
                 step *= growth;
                 t += step;
             }
             vec2 slab = slabAt(s, point);
             if (kThin != 0u) addSlab(bins, point, normalize(slab), thick, found, s.n, metres);
-            else raise(h, point, slab, vec2(0.0), 0.0, found, s.n, metres);
+            else raise(h, point, slab, vec2(0.0), 0.0, covered, found, s.n, metres);
         }
         sum += s.weight * vec2(kThin != 0u ? bins.sum : h.blocked, 1.0);
         along = next * along;

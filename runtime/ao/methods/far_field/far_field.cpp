@@ -153,9 +153,10 @@ public:
         if (thickness > 0.0f && averaging != Averaging::direct) averaging = Averaging::none;
         const uint32_t directions = std::min(sharedOut(values.count("directions"), side), 32u / (side * side) * side * side),
                        lineStep = 1u << values.count("lines");
-        const FarFieldGrid grid =
+        FarFieldGrid grid =
             farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, graph.device().caps().maxImageSize);
-        const float slope = values["slope"];
+        const float slope = std::abs(values["slope"]) < 0.01f ? 1.0f : values["slope"];
+        setAxes(grid, view, slope);
         const float connections[] = {0.0f, 1.0f, 0.75f};
         shared::FarFieldConstants constants{};
         constants.directions = directions;
@@ -163,8 +164,8 @@ public:
         constants.segments = values.count("segments");
         constants.levels = grid.levels;
         constants.interval = float(grid.interval);
+        constants.perInterval = 256.0f / constants.interval;
         constants.lineStep = float(lineStep);
-        constants.slope = std::abs(slope) < 0.01f ? 1.0f : slope;
         constants.connection = connections[values.count("estimator")];
         constants.longest = values["longest"];
         constants.unit = inputs.falloffDesc.length;
@@ -302,6 +303,8 @@ private:
         if (threshold <= 0.0f) return gathered;
         const graph::ImageId blurred = graph.image("far_field.blurred", graph.desc(gathered));
         graph.pass("far_field.blur", m_blur)
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
             .read(gathered)
             .write(blurred)
             .constants(shared::FarFieldBlur{threshold})

@@ -36,13 +36,28 @@ FarFieldGrid gridOf(shared::uvec2 size, uint32_t directions, uint32_t interval, 
         grid.directions.push_back(d);
     }
     const bool sums = averaging == Averaging::prefixSums;
-    grid.format = sums ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_UINT;
+    grid.format = sums ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT;
     grid.rows = uint32_t((cells + shared::kCellsWide - 1) / shared::kCellsWide);
     grid.bytes = uint64_t(grid.rows) * shared::kCellsWide * (sums ? 16 : 4);
     return grid;
 }
 
 }  // namespace
+
+void setAxes(FarFieldGrid& grid, const shared::View& view, float slope) {
+    for (shared::Direction& d : grid.directions) {
+        const shared::vec2 g{d.along.x * view.unproject.x, d.along.y * view.unproject.y};
+        const float width = float(view.size.x), height = float(view.size.y);
+        d.step = std::hypot(g.x, g.y);
+        d.from =
+            ((0.5f * width * view.unproject.x + view.unproject.z) * g.x + (0.5f * height * view.unproject.y + view.unproject.w) * g.y) /
+            d.step;
+        const float edge = std::abs(d.from) + 0.5f * d.step * (std::abs(d.along.x) * width + std::abs(d.along.y) * height),
+                    most = view.orthographic > 0.5f ? std::abs(slope) : shared::kFlattest / edge;
+        d.slope = std::clamp(slope, -most, most);
+        d.perRise = 1.0f / (d.slope * d.step);
+    }
+}
 
 FarFieldGrid farFieldGrid(
     shared::uvec2 size, uint32_t directions, uint32_t interval, uint32_t lineStep, Averaging averaging, uint32_t mostRows) {

@@ -39,15 +39,11 @@ public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<Mipmap>();
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
-        const struct {
-            const char* name;
-            gpu::Program* program;
-        } programs[] = {{"ao/mipmap/base.comp", &result->m_base}, {"ao/mipmap/reduce.comp", &result->m_reduce}};
-        for (const auto& [name, program] : programs)
-            if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/mipmap/base.comp", {}, result->m_base) != gpu::Status::ok) return nullptr;
         for (uint32_t thin = 0; thin < 2; ++thin)
-            if (gpu::Program::compute(device, shaders, "ao/mipmap/obscurance.comp", {{0, thin}}, result->m_obscurance[thin]) !=
-                gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders, "ao/mipmap/reduce.comp", {{0, thin}}, result->m_reduce[thin]) != gpu::Status::ok ||
+                gpu::Program::compute(device, shaders, "ao/mipmap/obscurance.comp", {{0, thin}}, result->m_obscurance[thin]) !=
+                    gpu::Status::ok)
                 return nullptr;
         return result;
     }
@@ -56,14 +52,13 @@ public:
         const shared::View& view = inputs.view;
         uint32_t mips = 1;
         while (std::max(view.size.x, view.size.y) >> mips) ++mips;
-        const graph::ImageId pyramid = graph.image("mipmap.pyramid", {VK_FORMAT_R32_SFLOAT, view.size.x, view.size.y, 1, mips});
-        graph.pass("mipmap.base", m_base).read(inputs.depth).writeMip(pyramid, 0).dispatch(view.size.x, view.size.y);
+        const graph::ImageId pyramid = graph.image("mipmap.pyramid", {VK_FORMAT_R32G32_SFLOAT, view.size.x, view.size.y, 1, mips});
+        graph.pass("mipmap.base", m_base).read(inputs.viewBlock).read(inputs.depth).writeMip(pyramid, 0).dispatch(view.size.x, view.size.y);
         const uint32_t nearest = values["thickness"] > 0.0f;
         for (uint32_t mip = 1; mip < mips; ++mip)
-            graph.pass("mipmap.reduce", m_reduce)
+            graph.pass("mipmap.reduce", m_reduce[nearest])
                 .readMip(pyramid, mip - 1)
                 .writeMip(pyramid, mip)
-                .constants(shared::MipmapReduce{nearest})
                 .dispatch(std::max(view.size.x >> mip, 1u), std::max(view.size.y >> mip, 1u));
 
         const shared::MipmapObscurance constants{
@@ -87,7 +82,7 @@ public:
 
 private:
     FalloffTable m_table;
-    gpu::Program m_base, m_reduce, m_obscurance[2];  // endless, thin
+    gpu::Program m_base, m_reduce[2], m_obscurance[2];  // endless, thin
 };
 
 }  // namespace
