@@ -77,6 +77,42 @@ TEST_F(FarFieldEdges, orthographicStepMatchesTheClosedForm) {
     }
 }
 
+// Orthographic depths count from a plane of the host's choice.
+TEST_F(FarFieldEdges, orthographicDepthsMayBeginAnywhere) {
+    const auto at = [](float from) {
+        Room room;
+        room.width = 160;
+        room.height = 120;
+        room.guard = 16;
+        room.build();
+        const float scale = 2.0f / (160.0f * 0.02f);  // 2 cm per px
+        const float orthographic[16] = {scale, 0, 0, 0, 0, -scale * 160.0f / 120.0f, 0, 0, 0, 0, -0.0001f, 0, 0, 0, 0, 1};
+        std::memcpy(room.projection, orthographic, sizeof(orthographic));
+        for (size_t i = 0; i < room.depth.size(); ++i) {
+            const size_t x = i % 160, y = i / 160;
+            room.depth[i] = from + (x < 64 ? 3.0f : x < 90 && y > 50 ? 2.4f : 2.0f);
+            room.normals[4 * i + 1] = 0.0f;
+            room.normals[4 * i + 2] = 1.0f;
+        }
+        return room;
+    };
+    const Room near = at(0.0f);
+    for (const float from : {10.0f, 1000.0f}) {
+        const Room far = at(from);
+        for (const char* preset : {"default", "fast", "paper_8x2", "paper_saao", "thin", "mipmap"}) {
+            const bool mipmap = preset[0] == 'm';
+            m_method = mipmap ? "mipmap" : "far_field";
+            const ao::Values with = values({}, mipmap ? "default" : preset);
+            const Picture one = run(near, with, "exponential:1"), two = run(far, with, "exponential:1");
+            double difference = 0.0;
+            for (size_t i = 0; i < one.size(); ++i) difference += std::abs(double(one[i]) - double(two[i]));
+            printf("%s %g: %.5f of %.4f\n", preset, double(from), difference / double(one.size()), mean(one));
+            EXPECT_LT(difference / double(one.size()), (preset[0] == 't' ? 0.06 : 0.02) * mean(one)) << preset << ", " << from << " m";
+        }
+    }
+    m_method = "far_field";
+}
+
 TEST_F(FarFieldEdges, largeImagesWidenTheirIntervals) {
     const ao::FarFieldGrid grid = ao::farFieldGrid({4916, 2766}, 32, 3, 1, ao::Averaging::prefixSums, 16384);
     EXPECT_GT(grid.interval, 3u);
