@@ -26,7 +26,6 @@ TEST_F(LensTest, lastTexelCountsOnceOnEverySide) {
                 room.normals[4 * i + 2] = 1.0f;
             }
         means[side] = mean(run(room, values({{"directions", 16}, {"steps", 64}, {"normal_rays", 0}, {"blur", 0}}), "linear:3"));
-        printf("%.5f\n", means[side]);
     }
     EXPECT_GT(means[0], 0.01);
     for (int side = 1; side < 4; ++side) EXPECT_NEAR(means[side], means[0], 0.01 * means[0]) << side;

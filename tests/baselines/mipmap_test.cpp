@@ -50,7 +50,6 @@ TEST_F(Mipmap, mirroredPicturesMirror) {
                     for (uint32_t x = 0; x < w; ++x)
                         sum +=
                             std::abs(double(picture[y * w + x]) - double(other[(across ? y : h - 1 - y) * w + (across ? w - 1 - x : x)]));
-                printf("%s %ux%u %s: %.5f of %.4f\n", preset, width, height, across ? "across" : "down", sum / (w * h), mean(picture));
                 // Of points on a texel's edge, the mirror image takes the other texel: some steps to the sides are whole pixels.
                 EXPECT_LT(sum / (w * h), (preset[0] == 't' ? 0.02 : 1e-4) * mean(picture))
                     << preset << " " << width << "x" << height << (across ? " across" : " down");

@@ -106,7 +106,6 @@ TEST_F(FarFieldEdges, orthographicDepthsMayBeginAnywhere) {
             const Picture one = run(near, with, "exponential:1"), two = run(far, with, "exponential:1");
             double difference = 0.0;
             for (size_t i = 0; i < one.size(); ++i) difference += std::abs(double(one[i]) - double(two[i]));
-            printf("%s %g: %.5f of %.4f\n", preset, double(from), difference / double(one.size()), mean(one));
             EXPECT_LT(difference / double(one.size()), (preset[0] == 't' ? 0.06 : 0.02) * mean(one)) << preset << ", " << from << " m";
         }
     }

@@ -87,7 +87,6 @@ TEST_F(FarFieldViews, postAtTheEdgeOfAWideViewCounts) {
         for (const char* preset : {"default", "paper_16x2"})
             for (const float slope : {-1.0f, 1.0f, 2.0f, -2.0f}) {
                 const double found = columnsMean(room, run(room, values({{"slope", slope}}, preset), "exponential:2"), x0, x1);
-                printf("%s %g: %.4f (%.4f)\n", preset, double(slope), found, expected);
                 EXPECT_NEAR(found, expected, 0.16 * expected) << preset << ", slope " << slope << (mirrored ? ", mirrored" : "");
             }
     }
@@ -138,7 +137,6 @@ TEST_F(FarFieldViews, pixelsNeedNotBeSquare) {
                 worst = std::max(worst, std::abs(rowMean(room, picture, y) - exact(a)));
                 ++rows;
             }
-            printf("%s %u:%u: %.4f\n", method, across, down, worst);
             EXPECT_GT(rows, 10);
             EXPECT_LT(worst, mip ? 0.03 : 0.02) << method << ", pixels " << across << ":" << down;
         }
@@ -159,20 +157,54 @@ TEST_F(FarFieldViews, postsBeforeSkyBlockWhatTheyCover) {
         m_method = "far_field";
         const double expected = beside(fine());
         EXPECT_GT(expected, 0.005);
-        printf("%2u x %3u px: %.4f;", width, bottom - top, expected);
         for (const char* preset : {"default", "paper_8x2", "paper_16x2", "paper_saao"}) {
             // Slabs block less than the surface between points; that is another test's business.
             const double found = beside(preset[0] == 'p' ? values({{"estimator", 2}, {"longest", 0.5f}}, preset) : values({}));
-            printf(" %s %.4f", preset, found);
             EXPECT_NEAR(found, expected, 0.3 * expected) << preset << ", " << width << " x " << bottom - top << " px";
         }
         // The pyramid averages over squares, so narrow posts fade, but they do not vanish.
         m_method = "mipmap";
         const double found = beside(values({}));
-        printf(" mipmap %.4f\n", found);
         EXPECT_GT(found, (width < 40 ? 0.04 : 0.5) * expected) << width << " x " << bottom - top << " px";
         EXPECT_LT(found, 1.1 * expected) << width << " x " << bottom - top << " px";
     }
+}
+
+// A picture and its mirror image, of a post in front of a step. Tiles of interleaving and the checkerboard of turned directions do not mirror,
+// so means over 7 columns or rows are compared.
+TEST_F(FarFieldViews, mirroredPicturesMirror) {
+    for (const uint32_t width : {192u, 161u}) {
+        const Room room = facing(width, 110, 16, 170.0f, 170.0f, [&](uint32_t x, uint32_t y) {
+            return x > 60 && x < 65 ? 3.0f : x < 90 ? 3.8f : y < 50 ? 4.0f : 4.4f;
+        });
+        for (const bool across : {false, true}) {
+            Room other = room;
+            for (uint32_t y = 0; y < room.height; ++y)
+                for (uint32_t x = 0; x < width; ++x)
+                    other.depth[size_t(y) * width + x] =
+                        room.depth[size_t(across ? y : room.height - 1 - y) * width + (across ? width - 1 - x : x)];
+            for (const char* preset : {"default", "sparse", "fast", "paper_8x2", "paper_16x2", "paper_saao", "thin", "mipmap"}) {
+                const bool mipmap = preset[0] == 'm', sparse = preset[0] == 's';
+                m_method = mipmap ? "mipmap" : "far_field";
+                const ao::Values with = mipmap ? values({}) : sparse ? values({{"lines", 1}}) : values({{"jitter", 0}}, preset);
+                const Picture one = run(room, with, "exponential:1"), two = run(other, with, "exponential:1");
+                const uint32_t w = room.visibleWidth(), h = room.visibleHeight();
+                double sum = 0.0;
+                const uint32_t length = across ? w : h, beside = across ? h : w;
+                for (uint32_t at = 3; at + 3 < length; ++at) {
+                    double difference = 0.0;
+                    for (uint32_t u = at - 3; u <= at + 3; ++u)
+                        for (uint32_t v = 0; v < beside; ++v)
+                            difference += across ? double(one[v * w + u]) - double(two[v * w + w - 1 - u])
+                                                 : double(one[u * w + v]) - double(two[(h - 1 - u) * w + v]);
+                    sum += std::abs(difference) / (7.0 * beside);
+                }
+                const double tolerance = sparse || (!mipmap && with.count("interleave")) ? 0.025 : 0.008;
+                EXPECT_LT(sum / (length - 6), tolerance * mean(one)) << preset << ", " << width << " px" << (across ? " across" : " down");
+            }
+        }
+    }
+    m_method = "far_field";
 }
 
 // The blur after interleaving leaves sky open and does not lighten what is in front of it.

@@ -43,7 +43,7 @@ struct FarFieldConstants {
     float jitter;        // of directions, fraction of a segment
     uint side;           // of the interleaving tile, px
     float longest;       // longest interval, fraction of its distance from the receiver
-    uint alternate;      // 1: directions of every other pixel are turned by half a segment
+    uint alternate;      // 1: directions of every other pixel are turned by half a segment, of the evaluated directions' width
 };
 OBSCURA_SHARED_SIZE(FarFieldConstants, 68);
 

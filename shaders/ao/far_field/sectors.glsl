@@ -28,7 +28,7 @@ struct Turn {
 // Turns all segments of a pixel by one random angle [Timonen 2013, sec. 11.1], or by a quarter segment with alternating sign on a
 // checkerboard: the bands of a finite number of directions then alternate from pixel to pixel and are visible only beside tall objects.
 Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
-    float halfWidth = kPi / float(c.directions * c.segments), quarter = ((texel.x + texel.y) & 1) == 0 ? 0.5 * halfWidth : -0.5 * halfWidth;
+    float halfWidth = kPi * float(c.stride) / float(c.directions * c.segments), quarter = ((texel.x + texel.y) & 1) == 0 ? 0.5 * halfWidth : -0.5 * halfWidth;
     vec2 by = c.alternate != 0u ? vec2(cos(quarter), sin(quarter)) : jitterAt(view, texel, halfWidth, c.jitter);
     turn.first = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * by;
     turn.shift = by.y / by.x / c.lineStep;
@@ -76,7 +76,8 @@ Cell cellAt(Place at, Segment s, FarFieldConstants c, uint n, uint j, float away
     uint lines = kAveraging == kPyramid ? at.d.lines >> n : at.d.lines, row = levelBase(at.d, n, kAveraging) + j * lines;
     float last = float(lines - 1u);
 #ifdef SUMS
-    uint l0 = uint(clamp(floor(from), 0.0, last)), l1 = uint(clamp(max(floor(to), floor(from) + 1.0) - 1.0, 0.0, last));
+    float count = max(floor(to - from + 0.5), 1.0), first = floor(0.5 * (from + to - count) + 0.5);
+    uint l0 = uint(clamp(first, 0.0, last)), l1 = uint(clamp(first + count - 1.0, 0.0, last));
     uvec4 end = imageLoad(cells, texelOf(row + l1)), before = imageLoad(cells, texelOf(row + max(l0, 1u) - 1u));
     before = l0 > 0u ? before : uvec4(0u);
     vec2 sum = (uintBitsToFloat(end.xy) - uintBitsToFloat(before.xy)) + (unpackHalf2x16(end.w) - unpackHalf2x16(before.w));

@@ -276,6 +276,7 @@ private:
         near.constants.segments = 1;
         // Stride 2 is not in the paper: it halves the time and adds an error of 0.002.
         near.constants.stride = scanned.averaging == Averaging::pyramid && scanned.constants.directions >= 16 ? 2 : 1;
+        near.constants.alternate = near.constants.stride > 1 && near.constants.jitter <= 0.0f;  // nine directions have no mirror image
         near.constants.parts &= shared::kNearPart;
         far.constants.parts &= shared::kFarPart;
         near.constants.side = far.constants.side = side;

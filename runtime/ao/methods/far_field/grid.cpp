@@ -24,7 +24,13 @@ FarFieldGrid gridOf(shared::uvec2 size, uint32_t directions, uint32_t interval, 
         d.along = {float(c), float(s)};
         d.lines = std::max(roundUp(uint32_t(std::ceil(across / lineStep - 1e-6)), unit), 2 * unit);
         d.intervals = roundUp(uint32_t(std::ceil(along / interval - 1e-6)), unit);
-        d.origin = {0.5f * float(d.intervals * interval), 0.5f * float(d.lines * lineStep)};
+        // Lines and steps that are parallel to pixels pass through their middles; on their edges, points would lie half a pixel aside.
+        const auto centre = [&](double extent, double length, double first) {
+            const double between = extent * 0.5 + first - length * 0.5, aside = std::abs(between - std::floor(between) - 0.5);
+            const bool moved = (std::abs(c) < 1e-6 || std::abs(s) < 1e-6) && aside > 0.25;
+            return float(length * 0.5) + (!moved ? 0.0f : 2 * k < directions ? 0.5f : -0.5f);
+        };
+        d.origin = {centre(along, double(d.intervals) * interval, 0.5), centre(across, double(d.lines) * lineStep, 0.5 * lineStep)};
         d.base = uint32_t(cells);
         const uint64_t level0 = uint64_t(d.lines) * d.intervals;
         const uint32_t multiple = 1u << ((averaging == Averaging::pyramid ? 2 : 1) * grid.levels);
