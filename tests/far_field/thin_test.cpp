@@ -58,6 +58,18 @@ TEST_F(FarFieldThin, jitterAddsNoiseAndKeepsTheMean) {
     EXPECT_NEAR(mean(turned), mean(still), 0.05 * mean(still));
 }
 
+// Near field, far field, and both when interleaved.
+TEST_F(FarFieldThin, jitterTurnsEveryField) {
+    const Room room = board(20);
+    for (const char* preset : {"default", "fast", "paper_saao"})
+        for (const float parts : {1.0f, 2.0f}) {
+            const Changes still{{"parts", parts}, {"alternate", 0}, {"jitter", 0}}, turned{{"parts", parts}, {"alternate", 0}, {"jitter", 1}};
+            const Picture one = run(room, values(still, preset), falloff), two = run(room, values(turned, preset), falloff);
+            EXPECT_GT(difference(one, two), 0.02 * mean(one)) << preset << ", part " << parts;
+            EXPECT_NEAR(mean(two), mean(one), 0.05 * mean(one)) << preset << ", part " << parts;
+        }
+}
+
 TEST_F(FarFieldThin, directSamplesNeedNoScan) {
     const Room room = board(20);
     const Picture direct = run(room, values({{"averaging", 3}, {"jitter", 0}}, "thin"), falloff);

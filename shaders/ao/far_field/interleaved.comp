@@ -19,8 +19,9 @@ void main() {
     float z = uintBitsToFloat(surface.y);
     vec2 sum = vec2(0.0);
     if (!isSky(view, z)) {
-        Receiver r = receiverAt(view, p + ivec2(view.guard), z, unpackNormal(surface.x));
-        Turn turn = turnOf(c);
+        ivec2 texel = p + ivec2(view.guard);
+        Receiver r = receiverAt(view, texel, z, unpackNormal(surface.x));
+        Turn turn = jittered(turnOf(c), view, texel, c);
         for (uint k = shareOf(view, p, c.side); k < c.directions; k += c.side * c.side) sum += sectorOf(r, k, c, turn, view.skyDepth);
     }
     imageStore(shares, p, vec4(2.0 * sum.x, sum.y, 0.0, 0.0));

@@ -62,7 +62,7 @@ const Parameter kParameters[] = {
         "Slope s of the second angle from which the highest point of an interval is chosen: -1, from above, in the paper. 0 counts as 1."},
     {"estimator", "", 0, 2, 2, true, {kEstimators, 3},
         "Shape of the surface below a point: a slab away from the camera, as in the paper, a line to the previous point, or a blend of "
-        "both. All cost the same."},
+        "both. All cost the same. Surfaces with a thickness are slabs."},
     {"averaging", "", 0, 3, 2, true, {kAveragings, 4},
         "How points are averaged over the width of a sector: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth, "
         "with a sixth of the memory. direct: single texels of the depth buffer, no scans. Without averaging thin objects alias. Only the "
@@ -76,8 +76,7 @@ const Parameter kParameters[] = {
         "Thickness of surfaces, in 32 bins of each sector; 0: endless. Above 0 turns off averaging, interleaving and depth layers. Too "
         "low: light leaks through solid objects."},
     {"jitter", "", 0, 1, 0, false, {},
-        "Random turn of the directions of each pixel, as a fraction of half a segment: noise instead of bands. The interleaved far field "
-        "ignores it."},
+        "Random turn of the directions of each pixel, as a fraction of half a segment: noise instead of bands."},
     {"alternate", "", 0, 1, 1, true, {kOffOn, 2},
         "Turns the directions of every other pixel by half a segment: bands become a fine checkerboard, which shows beside tall objects "
         "only. Free. Off if interleaved or jittered."},
