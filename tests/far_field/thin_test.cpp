@@ -63,7 +63,8 @@ TEST_F(FarFieldThin, jitterTurnsEveryField) {
     const Room room = board(20);
     for (const char* preset : {"default", "fast", "paper_saao"})
         for (const float parts : {1.0f, 2.0f}) {
-            const Changes still{{"parts", parts}, {"alternate", 0}, {"jitter", 0}}, turned{{"parts", parts}, {"alternate", 0}, {"jitter", 1}};
+            const Changes still{{"parts", parts}, {"alternate", 0}, {"jitter", 0}},
+                turned{{"parts", parts}, {"alternate", 0}, {"jitter", 1}};
             const Picture one = run(room, values(still, preset), falloff), two = run(room, values(turned, preset), falloff);
             EXPECT_GT(difference(one, two), 0.02 * mean(one)) << preset << ", part " << parts;
             EXPECT_NEAR(mean(two), mean(one), 0.05 * mean(one)) << preset << ", part " << parts;

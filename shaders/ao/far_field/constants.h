@@ -11,7 +11,7 @@ struct Direction {
     vec2 origin;       // px from the grid's first interval and first line to the image centre
     uint lines;        // a multiple of 2^(levels - 1)
     uint intervals;    // a multiple of 2^(levels - 1)
-    uint base;         // first cell of this direction
+    uint base;         // first cell of this direction; each batch begins at 0
     uint total;        // cells of all levels: level n begins at total - (total >> n shift), see levelBase()
     float from;        // along the direction on the image plane at depth 1 m: the image centre, metres
     float step;        // and one pixel, metres
@@ -28,6 +28,7 @@ const uint kCellsWide = 4096u;  // texels per row of the image of all cells; sup
 const uint kNearPart = 1u, kFarPart = 2u;
 struct FarFieldConstants {
     uint directions;     // K
+    uint first, count;   // batch whose cells are in memory: directions first ... first + count - 1 and, if paired, their opposites
     uint stride;         // every stride-th direction is evaluated
     uint segments;       // of each sector
     uint levels;         // of the pyramid of intervals
@@ -45,22 +46,23 @@ struct FarFieldConstants {
     float longest;       // longest interval, fraction of its distance from the receiver
     uint alternate;      // 1: directions of every other pixel are turned by half a segment, of the evaluated directions' width
 };
-OBSCURA_SHARED_SIZE(FarFieldConstants, 68);
+OBSCURA_SHARED_SIZE(FarFieldConstants, 76);
 
 struct FarFieldPyramid {  // pyramid.comp
     FarFieldConstants constants;
     uint from;  // level from which the next three are made
 };
-OBSCURA_SHARED_SIZE(FarFieldPyramid, 72);
+OBSCURA_SHARED_SIZE(FarFieldPyramid, 80);
 struct FarFieldFields {  // fields.comp
     PackLayers layers;
     float unit;  // metres: the falloff's length
 };
 OBSCURA_SHARED_SIZE(FarFieldFields, 12);
 struct FarFieldObjectPyramid {  // objects_pyramid.comp
+    uint first;  // direction
     uint level;
 };
-OBSCURA_SHARED_SIZE(FarFieldObjectPyramid, 4);
+OBSCURA_SHARED_SIZE(FarFieldObjectPyramid, 8);
 struct FarFieldBoxAverage {  // box_average.comp
     uint side;  // of the interleaving tile, px
 };

@@ -20,6 +20,11 @@ struct Axis {
 Axis axisOf(View view, Direction d) { return Axis(d.from, d.step, view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0), d.slope); }
 float metresAt(Axis axis, float depth) { return depth * axis.scale.x + axis.scale.y; }
 
+// Directions of a batch: their number, and number i.
+uint batchOf(FarFieldConstants c) { return c.paired != 0u ? 2u * c.count : c.count; }
+uint directionOf(FarFieldConstants c, uint i) { return c.first + i + (i < c.count ? 0u : c.directions / 2u - c.count); }
+bool inBatch(FarFieldConstants c, uint k) { return (c.paired != 0u ? k % (c.directions / 2u) : k) - c.first < c.count; }
+
 ivec2 texelOf(uint cell) { return ivec2(cell & (kCellsWide - 1u), cell / kCellsWide); }
 // First cell of level n of a direction. With the pyramid a level has (lines >> n) x (intervals >> n) cells, else lines x (intervals >> n).
 // `total` is a multiple of 4^levels (else 2^levels) and at least 4/3 (else 2) of level 0, so levels do not overlap.

@@ -15,7 +15,7 @@ layout(push_constant) uniform Block { FarFieldConstants constants; };
 void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
     FarFieldConstants c = constants;
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    Direction d = directionsOf[c.first + gl_GlobalInvocationID.z];
     uint line = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y, steps = uint(c.interval);
     if (line >= d.lines || j >= d.intervals) return;
     float across = (float(line) + 0.5) * c.lineStep - d.origin.y, first = middleOf(d, c.interval, j) - 0.5 * c.interval + 0.5;

@@ -1,8 +1,9 @@
 // Obscurance from a background and objects in front of it: every sector of a pixel, near and far field [Timonen 2013, alg. 2].
 // In: linear depth of the background, packed normals, directions, cells, the falloff's table, objects and their cells, linear depth.
-// Out: visibility.
+// Out: visibility. BATCH as in obscurance.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variant BATCH
 const uint kThin = 0u;
 #include "ao/far_field/sectors.glsl"
 #include "ao/far_field/objects.glsl"
@@ -12,6 +13,9 @@ layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
 layout(set = 0, binding = 7, rg32ui) uniform readonly uimage2D objects;
 layout(set = 0, binding = 8, rg32ui) uniform readonly uimage2D objectCells;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D surfaces;
+#ifdef BATCH
+layout(set = 0, binding = 10, rg32f) uniform image2D sums;
+#endif
 
 // An object over an interval along a segment: the highest corner of its front (high / over, metres) and the data for the lowest corner of
 // its back.
@@ -142,9 +146,13 @@ void main() {
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
     Turn turn = jittered(turnOf(c), view, texel, c);
     vec2 sum = vec2(0.0);
-    for (uint k = 0u;;) {  // post-tested, see sectors.glsl
-        sum += layeredSectorOf(r, k, c, turn, view.skyDepth);
-        if ((k += c.stride) >= c.directions) break;
+    for (uint i = 0u;;) {  // post-tested, see sectors.glsl
+        sum += layeredSectorOf(r, directionOf(c, i), c, turn, view.skyDepth);
+        if ((i += c.stride) >= batchOf(c)) break;
     }
+#ifdef BATCH
+    if (c.first > 0u) sum += imageLoad(sums, p).xy;
+    imageStore(sums, p, vec4(sum, 0.0, 0.0));
+#endif
     imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));
 }

@@ -13,7 +13,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Directions { Direction dire
 layout(push_constant) uniform Block { FarFieldConstants constants; };
 
 void main() {
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    Direction d = directionsOf[directionOf(constants, gl_GlobalInvocationID.z)];
     uint level = gl_GlobalInvocationID.y, intervals = d.intervals >> level, j = gl_GlobalInvocationID.x;
     if (j >= intervals) return;
     uint at = levelBase(d, level, kPrefix) + j * d.lines;

@@ -15,7 +15,7 @@ void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
     FarFieldConstants c = pyramid.constants;
     uint from = pyramid.from;
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    Direction d = directionsOf[directionOf(c, gl_GlobalInvocationID.z)];
     uvec2 block = gl_GlobalInvocationID.xy;  // lines, intervals
     uint lines = d.lines >> from, intervals = d.intervals >> from;
     if (block.x * 8u >= lines || block.y * 8u >= intervals) return;

@@ -56,8 +56,8 @@ void store(Direction d, Axis axis, FarFieldConstants c, uint level, uint line, u
 void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
     FarFieldConstants c = constants;
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
-    Direction back = directionsOf[gl_GlobalInvocationID.z + (c.paired != 0u ? c.directions / 2u : 0u)];
+    uint k = c.first + gl_GlobalInvocationID.z;
+    Direction d = directionsOf[k], back = directionsOf[k + (c.paired != 0u ? c.directions / 2u : 0u)];
     uint line = gl_GlobalInvocationID.x, run = kAveraging == kPyramid ? 1u : 1u << (c.levels - 1u);
     uint first = gl_GlobalInvocationID.y * run;
     if (line >= d.lines || first >= d.intervals) return;

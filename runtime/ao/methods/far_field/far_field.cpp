@@ -21,12 +21,17 @@
 // Only the pyramid reads layers, because it can average both fields.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: table (when the falloff changes),
-// scan, prefix sums or pyramid, obscurance; interleaved also near field, box average, gather, blur; with layers also fields, objects and
+// scan, prefix sums or pyramid, obscurance (again for every batch of directions that do not fit into memory); interleaved also near field, box average, gather, blur; with layers also fields, objects and
 // objects pyramid.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string>
+#include <tuple>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "ao/falloff_table.h"
 #include "ao/interleave.h"
@@ -71,6 +76,9 @@ const Parameter kParameters[] = {
         "Samples of the near field in each segment. Cost grows with them. 0: far field only; too few: contact shadows are lost."},
     {"parts", "", 0, 2, 0, true, {kParts, 3},
         "Output: both fields, the near field alone, or the far field alone above the horizon of the near field."},
+    {"memory", "MB", 1, 4096, 256, true, {},
+        "Most memory of points. Directions whose points do not fit are scanned in batches one after another, which costs little on large "
+        "images. Lower is slower on small ones."},
     kInterleave,
     {"thickness", "m", 0, 100, 0, false, {},
         "Thickness of surfaces, in 32 bins of each sector; 0: endless. Above 0 turns off averaging, interleaving and depth layers. Too "
@@ -88,10 +96,10 @@ const Parameter kParameters[] = {
 };
 const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0}, {"interval", 10}, {"longest", 1}, {"slope", -1},
     {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"alternate", 0}, {"interval", 5}, {"longest", 1}, {"slope", -1},
-    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab},
-    {"averaging", 1}, {"near", 5}, {"interleave", kTile3x3}};
+const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"alternate", 0}, {"memory", 512}, {"interval", 10}, {"longest", 1},
+    {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
+const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"memory", 512}, {"interval", 10}, {"longest", 1}, {"slope", -1},
+    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kTile3x3}};
 const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"near", 3}, {"interleave", kTile3x3}};
 const Setting kThin[] = {
     {"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
@@ -111,8 +119,9 @@ const MethodInfo kInfo{"far_field", "Far-field ambient obscurance", "Timonen: Sc
 
 class FarField final : public Method {
 public:
+    FarField(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders) {}
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
-        auto result = std::make_unique<FarField>();
+        auto result = std::make_unique<FarField>(device, shaders);
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         for (uint32_t i = 0; i < 4; ++i) {
             const bool thin = i == uint32_t(Averaging::none) || i == uint32_t(Averaging::direct);
@@ -152,8 +161,14 @@ public:
         if (thickness > 0.0f && averaging != Averaging::direct) averaging = Averaging::none;
         const uint32_t directions = std::min(sharedOut(values.count("directions"), side), 32u / (side * side) * side * side),
                        lineStep = 1u << values.count("lines");
-        FarFieldGrid grid =
-            farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, graph.device().caps().maxImageSize);
+        const FarFieldLimits limits{uint64_t(values.count("memory")) << 20, graph.device().caps().maxImageSize};
+        FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, limits);
+        if (grid.interval != values.count("interval") && grid.interval != m_widened)
+            graph.device().log(gpu::Severity::warning,
+                fmt::format("far_field: interval is {} px, because the points of a direction do not fit into memory = {} MB and images of "
+                            "{} rows",
+                    grid.interval, values.count("memory"), limits.rows));
+        m_widened = grid.interval;
         const float slope = std::abs(values["slope"]) < 0.01f ? 1.0f : values["slope"];
         setAxes(grid, view, slope);
         const float connections[] = {0.0f, 1.0f, 0.75f};
@@ -170,45 +185,28 @@ public:
         constants.unit = inputs.falloffDesc.length;
         constants.taps = values.count("near");
         constants.parts = values.count("parts") ? values.count("parts") : shared::kNearPart | shared::kFarPart;
-        constants.paired = directions % 2 == 0;
+        constants.paired = grid.half < directions;
+        constants.count = grid.half;
         constants.thickness = thickness;
         constants.jitter = values["jitter"];
         constants.alternate = side == 1 && constants.jitter <= 0.0f && values.count("alternate");
 
         const FarFieldLayers::Fields fields =
             layered ? m_layers.split(graph, inputs, values["sheet"]) : FarFieldLayers::Fields{inputs.depth, {}};
-        const graph::BufferId grids =
-            graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
-        graph::ImageId cells = inputs.normals;  // bound but not read if there are no cells
-        if (averaging != Averaging::direct) cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
-        const uint32_t run = averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1);
-        if (averaging != Averaging::direct)
-            graph.pass("far_field.scan", m_scan[uint32_t(averaging)])
-                .read(inputs.viewBlock)
-                .read(fields.background)
-                .read(grids)
-                .write(cells)
-                .constants(constants)
-                .dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
-        if (averaging == Averaging::prefixSums)
-            graph.pass("far_field.prefix sums", m_prefix)
-                .read(grids)
-                .write(cells)
-                .constants(constants)
-                .dispatch(grid.intervals, grid.levels, directions);
-        for (uint32_t from = 0; averaging == Averaging::pyramid && from + 1 < grid.levels; from += 3) {
-            const uint32_t block = 8u << from;
-            graph.pass("far_field.pyramid", m_pyramid)
-                .read(inputs.viewBlock)
-                .read(grids)
-                .write(cells)
-                .constants(shared::FarFieldPyramid{constants, from})
-                .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
+        Scanned scanned{grid,
+            graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction)), fields, {},
+            inputs.normals, {}, averaging, constants};
+        if (averaging != Averaging::direct) scanned.cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
+        if (side > 1) return interleaved(graph, inputs, scanned, side, values["blur"]);
+        const auto& visible = view.visible;
+        const graph::ImageId result = graph.image("far_field.obscurance", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
+        graph::ImageId sums;
+        if (grid.batch < grid.half) sums = graph.image("far_field.sums", {VK_FORMAT_R32G32_SFLOAT, visible.x, visible.y});
+        for (uint32_t first = 0; first < grid.half; first += grid.batch) {
+            scan(graph, inputs, scanned, first);
+            if (!obscurance(graph, inputs, scanned, "far_field.obscurance", result, sums)) return {};
         }
-        const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
-        if (layered) return layers(graph, inputs, scanned, fields, m_layers.scan(graph, inputs, fields.objects, grids, grid, constants));
-        return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"])
-                        : obscurance(graph, inputs, scanned, "far_field.obscurance");
+        return result;
     }
 
     // Without layers even the farthest surface is endless.
@@ -219,28 +217,89 @@ public:
 
 private:
     struct Scanned {
+        const FarFieldGrid& grid;
         graph::BufferId grids;
-        graph::ImageId cells;
+        FarFieldLayers::Fields fields;  // without layers the background alone
         graph::ImageId table;
+        graph::ImageId cells;        // bound but not read if there are no cells
+        graph::ImageId objectCells;  // with layers
         Averaging averaging;
         shared::FarFieldConstants constants;
     };
 
-    graph::ImageId obscurance(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const char* name) {
-        const auto& visible = inputs.view.visible;
-        const graph::ImageId result = graph.image(name, {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        auto& programs = scanned.constants.thickness > 0.0f ? m_thin : m_obscurance;
-        graph.pass(name, programs[uint32_t(scanned.averaging)])
+    // Cells of the batch that begins with a direction; they replace those before it. The first time also the table.
+    void scan(graph::Graph& graph, const Inputs& inputs, Scanned& scanned, uint32_t first) {
+        const FarFieldGrid& grid = scanned.grid;
+        shared::FarFieldConstants& constants = scanned.constants;
+        constants.first = first;
+        constants.count = std::min(grid.batch, grid.half - first);
+        if (scanned.averaging != Averaging::direct) cells(graph, inputs, scanned);
+        if (first == 0) scanned.table = m_table.add(graph, inputs, "far_field.table");
+        if (scanned.fields.objects)
+            scanned.objectCells = m_layers.scan(graph, inputs, scanned.fields.objects, scanned.grids, grid, constants);
+    }
+
+    void cells(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned) {
+        const FarFieldGrid& grid = scanned.grid;
+        const shared::FarFieldConstants& constants = scanned.constants;
+        const uint32_t run = scanned.averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1),
+                       directions = constants.paired ? 2 * constants.count : constants.count;
+        graph.pass("far_field.scan", m_scan[uint32_t(scanned.averaging)])
             .read(inputs.viewBlock)
-            .read(inputs.depth)
-            .read(inputs.normals)
+            .read(scanned.fields.background)
             .read(scanned.grids)
-            .read(scanned.cells)
-            .read(scanned.table)
-            .write(result)
-            .constants(scanned.constants)
-            .dispatch(visible.x, visible.y);
-        return result;
+            .write(scanned.cells)
+            .constants(constants)
+            .dispatch(grid.lines, grid.intervals / run, constants.count);
+        if (scanned.averaging == Averaging::prefixSums)
+            graph.pass("far_field.prefix sums", m_prefix)
+                .read(scanned.grids)
+                .write(scanned.cells)
+                .constants(constants)
+                .dispatch(grid.intervals, grid.levels, directions);
+        for (uint32_t from = 0; scanned.averaging == Averaging::pyramid && from + 1 < grid.levels; from += 3) {
+            const uint32_t block = 8u << from;
+            graph.pass("far_field.pyramid", m_pyramid)
+                .read(inputs.viewBlock)
+                .read(scanned.grids)
+                .write(scanned.cells)
+                .constants(shared::FarFieldPyramid{constants, from})
+                .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
+        }
+    }
+
+    // A program for batches of directions, made when it is first needed: images that need them are large. Null if it cannot be made.
+    gpu::Program* batched(const char* pass, Averaging averaging, bool thin = false) {
+        gpu::Program& program = m_batched[{pass, averaging, thin}];
+        std::vector<gpu::Constant> constants{{0, uint32_t(averaging)}};
+        if (thin) constants.push_back({1, 1});
+        const char* end = averaging == Averaging::prefixSums ? ".comp:SUMS,BATCH" : ".comp:BATCH";
+        if (!program &&
+            gpu::Program::compute(m_device, m_shaders, std::string("ao/far_field/") + pass + end, constants, program) != gpu::Status::ok)
+            return nullptr;
+        return &program;
+    }
+
+    // Adds to `sums`, of batches of directions, unless there is one batch. False if a program cannot be made.
+    bool obscurance(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const char* name, graph::ImageId result,
+        graph::ImageId sums = {}) {
+        const bool thin = scanned.constants.thickness > 0.0f, layered = bool(scanned.objectCells);
+        gpu::Program* program = layered ? &m_layered : &(thin ? m_thin : m_obscurance)[uint32_t(scanned.averaging)];
+        if (sums) program = batched(layered ? "obscurance_layers" : "obscurance", scanned.averaging, thin);
+        if (!program) return false;
+        graph::Pass& pass = graph.pass(name, *program)
+                                .read(inputs.viewBlock)
+                                .read(scanned.fields.background)
+                                .read(inputs.normals)
+                                .read(scanned.grids)
+                                .read(scanned.cells)
+                                .read(scanned.table)
+                                .write(result)
+                                .constants(scanned.constants);
+        if (layered) pass.read(scanned.fields.objects).read(scanned.objectCells).read(inputs.depth);
+        if (sums) pass.write(sums);
+        pass.dispatch(inputs.view.visible.x, inputs.view.visible.y);
+        return true;
     }
 
     static bool readsLayers(const Values& values) {
@@ -248,57 +307,47 @@ private:
                values["thickness"] <= 0.0f && tileSide(values) == 1;
     }
 
-    graph::ImageId layers(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const FarFieldLayers::Fields& fields,
-        graph::ImageId objectCells) {
-        const auto& visible = inputs.view.visible;
-        const graph::ImageId result = graph.image("far_field.obscurance", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("far_field.obscurance", m_layered)
-            .read(inputs.viewBlock)
-            .read(fields.background)
-            .read(inputs.normals)
-            .read(scanned.grids)
-            .read(scanned.cells)
-            .read(scanned.table)
-            .write(result)
-            .read(fields.objects)
-            .read(objectCells)
-            .read(inputs.depth)
-            .constants(scanned.constants)
-            .dispatch(visible.x, visible.y);
-        return result;
-    }
-
     // [Timonen 2013, sec. 10]: every pixel evaluates its whole near field; the far field is interleaved over a tile.
-    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, uint32_t side, float threshold) {
+    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, Scanned& scanned, uint32_t side, float threshold) {
         const auto& visible = inputs.view.visible;
-        Scanned near = scanned, far = scanned;
+        scanned.constants.side = side;
+        Scanned near = scanned;
         near.constants.segments = 1;
         // Stride 2 is not in the paper: it halves the time and adds an error of 0.002.
         near.constants.stride = scanned.averaging == Averaging::pyramid && scanned.constants.directions >= 16 ? 2 : 1;
         near.constants.alternate = near.constants.stride > 1 && near.constants.jitter <= 0.0f;  // nine directions have no mirror image
         near.constants.parts &= shared::kNearPart;
-        far.constants.parts &= shared::kFarPart;
-        near.constants.side = far.constants.side = side;
-        const graph::ImageId nearField = obscurance(graph, inputs, near, "far_field.near field");
+        scanned.constants.parts &= shared::kFarPart;
+        const graph::ImageId nearField = graph.image("far_field.near field", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         const graph::ImageId surfaces = graph.image("far_field.surfaces", {VK_FORMAT_R32G32_UINT, visible.x, visible.y});
-        graph.pass("far_field.box average", m_boxAverage)
-            .read(inputs.viewBlock)
-            .read(inputs.depth)
-            .read(inputs.normals)
-            .write(surfaces)
-            .constants(shared::FarFieldBoxAverage{side})
-            .dispatch(visible.x, visible.y);
         const graph::ImageId shares = graph.image("far_field.shares", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
-        graph.pass("far_field.obscurance", m_interleaved[uint32_t(far.averaging)])
-            .read(inputs.viewBlock)
-            .read(inputs.depth)
-            .read(surfaces)
-            .read(far.grids)
-            .read(far.cells)
-            .read(far.table)
-            .write(shares)
-            .constants(far.constants)
-            .dispatch(visible.x, visible.y);
+        for (uint32_t first = 0; first < scanned.grid.half; first += scanned.grid.batch) {
+            scan(graph, inputs, scanned, first);
+            if (first == 0) {
+                near.table = scanned.table;
+                obscurance(graph, inputs, near, "far_field.near field", nearField);
+                graph.pass("far_field.box average", m_boxAverage)
+                    .read(inputs.viewBlock)
+                    .read(inputs.depth)
+                    .read(inputs.normals)
+                    .write(surfaces)
+                    .constants(shared::FarFieldBoxAverage{side})
+                    .dispatch(visible.x, visible.y);
+            }
+            gpu::Program* program = &m_interleaved[uint32_t(scanned.averaging)];
+            if (scanned.grid.batch < scanned.grid.half) program = batched("interleaved", scanned.averaging);
+            if (!program) return {};
+            graph.pass("far_field.obscurance", *program)
+                .read(inputs.viewBlock)
+                .read(inputs.depth)
+                .read(surfaces)
+                .read(scanned.grids)
+                .read(scanned.cells)
+                .read(scanned.table)
+                .write(shares)
+                .constants(scanned.constants)
+                .dispatch(visible.x, visible.y);
+        }
         const graph::ImageId gathered = m_gather.add(graph, inputs, shares, side, nearField);
         if (threshold <= 0.0f) return gathered;
         const graph::ImageId blurred = graph.image("far_field.blurred", graph.desc(gathered));
@@ -312,7 +361,11 @@ private:
         return blurred;
     }
 
+    gpu::Device& m_device;
+    const gpu::ShaderLibrary& m_shaders;
+    uint32_t m_widened = 0;  // the interval of the last frame, for the log
     FalloffTable m_table;
+    std::map<std::tuple<std::string, Averaging, bool>, gpu::Program> m_batched;
     gpu::Program m_scan[4], m_obscurance[4], m_thin[4], m_interleaved[4];  // by averaging
     gpu::Program m_prefix, m_pyramid, m_boxAverage, m_blur, m_layered;
     FarFieldLayers m_layers;
