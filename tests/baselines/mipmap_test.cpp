@@ -57,5 +57,24 @@ TEST_F(Mipmap, mirroredPicturesMirror) {
         }
 }
 
+// The far field alone: nothing nearer than the boundary counts, and what is farther is the far field of far_field.
+TEST_F(Mipmap, nearSamplesCanBeLeftOut) {
+    const Room room = steps(320, 200);
+    EXPECT_EQ(run(room, values({{"nearest", 1}}), "exponential:1"), run(room, values({}), "exponential:1"));
+    const double far = mean(run(room, values({{"nearest", 15}}), "exponential:1"));
+    EXPECT_LT(far, 0.9 * mean(run(room, values({}), "exponential:1")));
+    m_method = "far_field";
+    EXPECT_NEAR(far, mean(run(room, values({{"near", 0}}, "paper_8x2"), "exponential:1")), 0.25 * far);
+    m_method = "mipmap";
+    // A hole of 9 px: its walls are near.
+    Room hole = room;
+    for (uint32_t y = 0; y < hole.height; ++y)
+        for (uint32_t x = 0; x < hole.width; ++x)
+            hole.depth[size_t(y) * hole.width + x] = std::abs(int(x) - 160) < 5 && std::abs(int(y) - 100) < 5 ? 4.5f : 4.0f;
+    const uint32_t middle = (100 - hole.guard) * hole.visibleWidth() + 160 - hole.guard;
+    EXPECT_GT(run(hole, values({}), "exponential:1")[middle], 0.5f);
+    EXPECT_LT(run(hole, values({{"nearest", 15}}), "exponential:1")[middle], 0.5f * run(hole, values({}), "exponential:1")[middle]);
+}
+
 }  // namespace
 }  // namespace obscura::test

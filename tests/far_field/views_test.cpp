@@ -1,5 +1,7 @@
 // Views that strain the representation of points: long focal lengths, wide fields of view, pixels that are not square, great depths, and
 // sky.
+#include <bit>
+
 #include "far_field/fixture.h"
 
 namespace obscura::test {
@@ -205,6 +207,23 @@ TEST_F(FarFieldViews, mirroredPicturesMirror) {
         }
     }
     m_method = "far_field";
+}
+
+// The paper's interleaving averages neighbours within 3 % of the pixel's depth; the default asks for the tangent plane, within 1 %.
+TEST_F(FarFieldViews, neighboursOfInterleavingAreAskedFor) {
+    m_probe = "far_field.surfaces";
+    for (const float step : {0.005f, 0.02f, 0.05f}) {
+        const Room room = facing(96, 96, 8, 80.0f, 80.0f, [&](uint32_t x, uint32_t) { return x < 48 ? 4.0f : 4.0f * (1.0f - step); });
+        const auto averaged = [&](float neighbours) {
+            run(room, values({{"neighbours", neighbours}}, "paper_saao"), "exponential:1");
+            return std::bit_cast<float>(m_probed.at(39, 40, 1));  // beside the step
+        };
+        const float mixed = 4.0f * (1.0f - step / 3.0f);
+        EXPECT_NEAR(averaged(0), step < 0.01f ? mixed : 4.0f, 1e-4f) << step;
+        EXPECT_NEAR(averaged(1), step < 0.03f ? mixed : 4.0f, 1e-4f) << step;
+    }
+    run(facing(96, 96, 8, 80.0f, 80.0f, [](uint32_t, uint32_t) { return 4.0f; }), values({}, "paper_saao"), "exponential:1");
+    EXPECT_TRUE(m_passes.count("far_field.gather")) << "the preset has the paper's test";
 }
 
 // The blur after interleaving leaves sky open and does not lighten what is in front of it.

@@ -10,8 +10,10 @@ struct MipmapObscurance {  // obscurance.comp
     float unit;       // metres: the falloff's length
     float thickness;  // of surfaces, metres
     float jitter;     // of directions, fraction of a sector
+    float first;      // px, distance of the first sample
+    float step;       // px, to it from the one before
 };
-OBSCURA_SHARED_SIZE(MipmapObscurance, 20);
+OBSCURA_SHARED_SIZE(MipmapObscurance, 28);
 
 OBSCURA_SHARED_END
 #endif

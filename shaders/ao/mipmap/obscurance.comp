@@ -24,9 +24,8 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
-    vec2 surface = texelFetch(pyramid, texel, 0).xy;
-    float z = surface.x;
-    if (surface.y == 0.0) {
+    float z = texelFetch(pyramid, texel, 0).x;
+    if (z == 0.0) {  // sky
         imageStore(visibility, p, vec4(1.0));
         return;
     }
@@ -40,10 +39,10 @@ void main() {
         Segment s = segmentOf(r, along, 1.0, side);
         Horizon h = horizonAt(s.start);
         Bins bins = binsBelow(s.start);
-        float edge = s.exit - 0.5, t = 1.0, step = 1.0;
+        float edge = s.exit - 0.5, t = constants.first, step = constants.step;
         bool more = true;
         while (more) {
-            vec2 point;
+            vec2 to;  // from the receiver, metres times coverage
             float covered = 1.0;
             bool found = false;
             while (!found && more) {
@@ -54,18 +53,18 @@ void main() {
                 vec2 where = r.pixel + at * s.along;
                 if (kThin != 0u) {
                     int mip = min(int(level + 0.5), textureQueryLevels(pyramid) - 1);
-                    ivec2 size = textureSize(pyramid, mip);
-                    sampled = texelFetch(pyramid, min(ivec2(where * texelSize * vec2(size)), size - 1), mip).xy;
+                    vec2 size = vec2(max(view.size >> mip, 1u));  // not halves: 27 rows are made of 54, and 13 of 27
+                    sampled = texelFetch(pyramid, ivec2(min(where * texelSize * size, size - 0.5)), mip).xy;
                 } else {
                     sampled = textureLod(pyramid, where * texelSize, level).xy;
                 }
-                covered = sampled.y;
-                point = pointAt(s, sampled.x / max(covered, 1e-6), at);
-                found = covered > 1e-3 && (kThin != 0u || raises(h, point));
+                covered = kThin != 0u ? 1.0 : sampled.y;
+                to = seenAt(s, (sampled.x * s.scale.x + covered * s.scale.y) * at, sampled.x, covered);
+                found = (kThin != 0u ? sampled.x > 0.0 : covered > 1e-3) && (kThin != 0u || raises(h, to));
                 step *= growth;
                 t += step;
             }
-            vec2 slab = slabAt(s, point);
+            vec2 point = kThin != 0u ? to : to / max(covered, 1e-6), slab = slabAt(s, point);
             if (kThin != 0u) addSlab(bins, point, normalize(slab), thick, found, s.n, metres);
             else raise(h, point, slab, vec2(0.0), 0.0, covered, found, s.n, metres);
         }

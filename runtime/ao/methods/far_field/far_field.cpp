@@ -46,6 +46,7 @@ constexpr float kTile3x3 = 2;  // in kInterleaves
 enum Estimator : uint32_t { kSlab, kConnected, kBlended };
 const char* const kEstimators[] = {"slab", "connected", "blended"};
 const char* const kParts[] = {"both", "near", "far"};
+const char* const kNeighbours[] = {"plane", "depth"};
 const char* const kOffOn[] = {"off", "on"};
 const char* const kSparsities[] = {"every", "every 2nd", "every 4th"};
 
@@ -90,6 +91,10 @@ const Parameter kParameters[] = {
         "only. Free. Off if interleaved or jittered."},
     kDepthLayers,
     kSheet,
+    {"neighbours", "", 0, 1, 0, true, {kNeighbours, 2},
+        "Neighbours that interleaving averages: those near the pixel's tangent plane, or those within 3 % of its depth, as in the paper. "
+        "By "
+        "depth, grazing surfaces are grainy and low steps blur."},
     {"blur", "", 0, 0.5f, 0.07f, false, {},
         "After interleaving: 5x5 mean of neighbours whose visibility differs by at most this; 0: off. Too low: grain where near and far "
         "field meet; too high: contact shadows blur."},
@@ -99,7 +104,7 @@ const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0},
 const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"alternate", 0}, {"memory", 512}, {"interval", 10}, {"longest", 1},
     {"slope", -1}, {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
 const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"memory", 512}, {"interval", 10}, {"longest", 1}, {"slope", -1},
-    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kTile3x3}};
+    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}, {"interleave", kTile3x3}, {"neighbours", 1}};
 const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"near", 3}, {"interleave", kTile3x3}};
 const Setting kThin[] = {
     {"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
@@ -138,8 +143,12 @@ public:
         const struct {
             const char* name;
             gpu::Program* program;
-        } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid}, {"box_average", &result->m_boxAverage},
+        } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid}, {"gather", &result->m_gatherSimilar},
             {"blur", &result->m_blur}};
+        for (uint32_t similar = 0; similar < 2; ++similar)
+            if (gpu::Program::compute(device, shaders, "ao/far_field/box_average.comp", {{0, similar}}, result->m_boxAverage[similar]) !=
+                gpu::Status::ok)
+                return nullptr;
         if (Gather::create(device, shaders, result->m_gather) != Status::ok ||
             FarFieldLayers::create(device, shaders, result->m_layers) != gpu::Status::ok)
             return nullptr;
@@ -197,7 +206,7 @@ public:
             graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction)), fields, {},
             inputs.normals, {}, averaging, constants};
         if (averaging != Averaging::direct) scanned.cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
-        if (side > 1) return interleaved(graph, inputs, scanned, side, values["blur"]);
+        if (side > 1) return interleaved(graph, inputs, scanned, side, values.count("neighbours"), values["blur"]);
         const auto& visible = view.visible;
         const graph::ImageId result = graph.image("far_field.obscurance", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph::ImageId sums;
@@ -308,7 +317,7 @@ private:
     }
 
     // [Timonen 2013, sec. 10]: every pixel evaluates its whole near field; the far field is interleaved over a tile.
-    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, Scanned& scanned, uint32_t side, float threshold) {
+    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, Scanned& scanned, uint32_t side, bool similar, float threshold) {
         const auto& visible = inputs.view.visible;
         scanned.constants.side = side;
         Scanned near = scanned;
@@ -326,7 +335,7 @@ private:
             if (first == 0) {
                 near.table = scanned.table;
                 obscurance(graph, inputs, near, "far_field.near field", nearField);
-                graph.pass("far_field.box average", m_boxAverage)
+                graph.pass("far_field.box average", m_boxAverage[similar])
                     .read(inputs.viewBlock)
                     .read(inputs.depth)
                     .read(inputs.normals)
@@ -348,7 +357,18 @@ private:
                 .constants(scanned.constants)
                 .dispatch(visible.x, visible.y);
         }
-        const graph::ImageId gathered = m_gather.add(graph, inputs, shares, side, nearField);
+        const graph::ImageId gathered =
+            similar ? graph.image("far_field.gathered", graph.desc(nearField)) : m_gather.add(graph, inputs, shares, side, nearField);
+        if (similar)
+            graph.pass("far_field.gather", m_gatherSimilar)
+                .read(inputs.viewBlock)
+                .read(inputs.depth)
+                .read(inputs.normals)
+                .read(shares)
+                .read(nearField)
+                .write(gathered)
+                .constants(shared::Gather{side})
+                .dispatch(visible.x, visible.y);
         if (threshold <= 0.0f) return gathered;
         const graph::ImageId blurred = graph.image("far_field.blurred", graph.desc(gathered));
         graph.pass("far_field.blur", m_blur)
@@ -367,7 +387,8 @@ private:
     FalloffTable m_table;
     std::map<std::tuple<std::string, Averaging, bool>, gpu::Program> m_batched;
     gpu::Program m_scan[4], m_obscurance[4], m_thin[4], m_interleaved[4];  // by averaging
-    gpu::Program m_prefix, m_pyramid, m_boxAverage, m_blur, m_layered;
+    gpu::Program m_boxAverage[2];                                          // neighbours by plane, by depth
+    gpu::Program m_prefix, m_pyramid, m_gatherSimilar, m_blur, m_layered;
     FarFieldLayers m_layers;
     Gather m_gather;
 };

@@ -17,6 +17,9 @@ const Parameter kParameters[] = {
     {"directions", "", 4, 64, 16, true, {}, "Directions on the screen, K. Cost grows with them. Too few: bands."},
     {"factor", "", 1.1f, 3, 1.5f, false, {},
         "Length of each step relative to the one before. Larger costs less; too large: small distant occluders are missed."},
+    {"nearest", "px", 0, 100, 0, false, {},
+        "Samples nearer than this are left out: the far field alone, to compare with far_field without its near field, which begins at 1.5 "
+        "intervals."},
     {"thickness", "m", 0, 100, 0, false, {},
         "Thickness of surfaces; 0: endless. Above 0 a texel of the pyramid is the nearest depth instead of the mean, from one level. Too "
         "low: light leaks through solid objects."},
@@ -61,8 +64,10 @@ public:
                 .writeMip(pyramid, mip)
                 .dispatch(std::max(view.size.x >> mip, 1u), std::max(view.size.y >> mip, 1u));
 
+        float at = 1.0f, step = 1.0f;
+        while (at < values["nearest"]) at += step *= values["factor"];
         const shared::MipmapObscurance constants{
-            values.count("directions"), values["factor"], inputs.falloffDesc.length, values["thickness"], values["jitter"]};
+            values.count("directions"), values["factor"], inputs.falloffDesc.length, values["thickness"], values["jitter"], at, step};
         const graph::ImageId table = m_table.add(graph, inputs, "mipmap.table");
         const graph::ImageId visibility = graph.image("mipmap.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
         graph.pass("mipmap.obscurance", m_obscurance[nearest])
