@@ -126,14 +126,23 @@ TEST_F(FarFieldTest, blockedHemisphereIsOne) {
     }
 }
 
+// Planes at depths that few bits cannot hold.
 TEST_F(FarFieldTest, planesAreOpen) {
-    for (const char* preset : {"default", "fast", "paper_16x2"})
-        EXPECT_LT(highest(run(plane({0, 0, 1}), values({}, preset), "exponential:1")), 1e-5f) << preset;
-    const Picture improved = run(plane({0.5f, 0.3f, 1}), values({}), "exponential:1"),
-                  paper = run(plane({0.5f, 0.3f, 1}), values({}, "paper_16x2"), "exponential:1");
-    EXPECT_LT(mean(improved), 0.0006);
-    EXPECT_LT(highest(paper), 0.0045f);
-    EXPECT_LT(highest(run(plane({0, 1, 0}), values({}), "exponential:1")), 0.02f);  // a floor up to the horizon
+    const auto at = [](const std::array<float, 3>& normal, float scale) {
+        Room room = plane(normal);
+        for (float& z : room.depth)
+            if (z < 5e3f) z *= scale;
+        return room;
+    };
+    for (const float scale : {1.0f, 0.61803f, 33.3337f}) {
+        for (const char* preset : {"default", "fast", "paper_16x2", "paper_saao", "thin"})
+            EXPECT_LT(highest(run(at({0, 0, 1}, scale), values({}, preset), "exponential:1")), 1e-5f) << preset << " " << scale;
+        const Picture improved = run(at({0.5f, 0.3f, 1}, scale), values({}), "exponential:1"),
+                      paper = run(at({0.5f, 0.3f, 1}, scale), values({{"interval", 5}}, "paper_16x2"), "exponential:1");
+        EXPECT_LT(mean(improved), 0.0006) << scale;
+        EXPECT_LT(highest(paper), 0.0045f) << scale;
+        EXPECT_LT(highest(run(at({0, 1, 0}, scale), values({}), "exponential:1")), 0.02f) << scale;  // a floor up to the horizon
+    }
 }
 
 TEST(FarFieldGrid, levelsDoNotOverlapAndOppositeDirectionsMirror) {
