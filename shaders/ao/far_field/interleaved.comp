@@ -28,7 +28,7 @@ void main() {
     if (!isSky(view, z)) {
         ivec2 texel = p + ivec2(view.guard);
         Receiver r = receiverAt(view, texel, z, unpackNormal(surface.x));
-        Turn turn = jittered(turnOf(c), view, texel, c);
+        Turn turn = turnedBy(turnOf(c), c, jitterAt(view, texel, halfWidthOf(c), c.jitter));
         for (uint k = shareOf(view, p, c.side); k < c.directions; k += c.side * c.side) {
 #ifdef BATCH
             if (!inBatch(c, k)) continue;

@@ -25,14 +25,17 @@ struct Turn {
     float slope;  // of a sector's sides, lines per pixel of distance
     float shift;  // of all segments by jitter, lines per pixel of distance
 };
-// Turns all segments of a pixel by one random angle [Timonen 2013, sec. 11.1], or by a quarter segment with alternating sign on a
-// checkerboard: the bands of a finite number of directions then alternate from pixel to pixel and are visible only beside tall objects.
-Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
-    float halfWidth = kPi * float(c.stride) / float(c.directions * c.segments), quarter = ((texel.x + texel.y) & 1) == 0 ? 0.5 * halfWidth : -0.5 * halfWidth;
-    vec2 by = c.alternate != 0u ? vec2(cos(quarter), sin(quarter)) : jitterAt(view, texel, halfWidth, c.jitter);
+float halfWidthOf(FarFieldConstants c) { return kPi * float(c.stride) / float(c.directions * c.segments); }  // of a segment
+Turn turnedBy(Turn turn, FarFieldConstants c, vec2 by) {
     turn.first = mat2(turn.first, vec2(-turn.first.y, turn.first.x)) * by;
     turn.shift = by.y / by.x / c.lineStep;
     return turn;
+}
+// Turns all segments of a pixel by one random angle [Timonen 2013, sec. 11.1], or by a quarter segment with alternating sign on a
+// checkerboard: the bands of a finite number of directions then alternate from pixel to pixel and are visible only beside tall objects.
+Turn jittered(Turn turn, View view, ivec2 texel, FarFieldConstants c) {
+    float halfWidth = halfWidthOf(c), quarter = ((texel.x + texel.y) & 1) == 0 ? 0.5 * halfWidth : -0.5 * halfWidth;
+    return turnedBy(turn, c, c.alternate != 0u ? vec2(cos(quarter), sin(quarter)) : jitterAt(view, texel, halfWidth, c.jitter));
 }
 Turn turnOf(FarFieldConstants c) {
     float sector = kPi / float(c.directions), segment = sector / float(c.segments), slope = tan(sector) / c.lineStep;

@@ -1,7 +1,7 @@
 // Mipmapped ambient obscurance, the baseline of the far-field paper [Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013, sec. 5].
 // Along K directions the depth pyramid is sampled trilinearly at distances that grow by a factor, from the level whose texels are as wide
 // as the sector, and once more at the edge of the image. Estimator (with the paper's slabs) and table are far_field's; only the source of
-// the points differs.
+// the points differs. Sky takes no part in depths; a texel covers that part of its sector which is not sky.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: pyramid (one a level), obscurance.
 #include <algorithm>
