@@ -172,8 +172,8 @@ TEST_F(FarFieldViews, postsBeforeSkyBlockWhatTheyCover) {
     }
 }
 
-// A picture and its mirror image, of a post in front of a step. Tiles of interleaving and the checkerboard of turned directions do not mirror,
-// so means over 7 columns or rows are compared.
+// A picture and its mirror image, of a post in front of a step. Tiles of interleaving and the checkerboard of turned directions do not
+// mirror, so means over 7 columns or rows are compared.
 TEST_F(FarFieldViews, mirroredPicturesMirror) {
     for (const uint32_t width : {192u, 161u}) {
         const Room room = facing(width, 110, 16, 170.0f, 170.0f, [&](uint32_t x, uint32_t y) {

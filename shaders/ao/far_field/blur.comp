@@ -1,5 +1,5 @@
-// 5x5 mean of neighbours with similar visibility; removes the noise where near and far field meet [Timonen 2013, sec. 10]. Sky takes no part:
-// it is open, and its neighbours need not be.
+// 5x5 mean of neighbours with similar visibility; removes the noise where near and far field meet [Timonen 2013, sec. 10]. Sky takes no
+// part: it is open, and its neighbours need not be.
 // In: visibility, linear depth. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -67,8 +67,8 @@ struct Occlusion {
 bool counts(Occlusion occlusion, vec2 to) { return kThin != 0u || raises(occlusion.horizon, to); }
 float blockedOf(Occlusion occlusion) { return kThin != 0u ? occlusion.bins.sum : occlusion.horizon.blocked; }
 
-// What cellAt() returns: the arguments of seenAt(), over below kLeastOver if there is no point; and how many lines have one and, in the upper
-// 16 bits, are in the image.
+// What cellAt() returns: the arguments of seenAt(), over below kLeastOver if there is no point; and how many lines have one and, in the
+// upper 16 bits, are in the image.
 struct Cell {
     float across, depth, over;
     uint lines;
