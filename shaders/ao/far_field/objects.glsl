@@ -2,8 +2,8 @@
 // - A pixel (fields.comp): front as a float, whose lowest byte is the thickness (front - back) / front as a power of 2, in 16ths; growth of
 //   the front per pixel to the right and downwards, as halves.
 // - A cell: means over all pixels of an interval, covered or not, so that cells of longer intervals and more lines are means of cells:
-//   front where covered, as a float, whose lowest byte is the coverage; thickness there, (front - back) / front, and, times coverage, the growth
-//   of the front over the interval, as halves. One cell serves a direction and its opposite.
+//   front where covered, as a float, whose lowest byte is the coverage; thickness there, (front - back) / front, and, times
+//   coverage, the growth of the front over the interval, as halves. One cell serves a direction and its opposite.
 // The low byte of a front stays when it is read: fronts are exact to 2^-15.
 #ifndef OBSCURA_FAR_FIELD_THINGS_GLSL
 #define OBSCURA_FAR_FIELD_THINGS_GLSL
