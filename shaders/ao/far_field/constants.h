@@ -22,7 +22,7 @@ OBSCURA_SHARED_SIZE(Direction, 48);
 
 // A receiver angle steeper than a view ray is flat would see the farther of two points on that ray above the nearer. So |s| is at most this
 // fraction of 1 / |x| at the image's edges at depth 1 m.
-const float kFlattest = 0.95f;
+const float kFlattest = 0.9f;
 const uint kCellsWide = 4096u;  // texels per row of the image of all cells; supported by every device
 
 const uint kNearPart = 1u, kFarPart = 2u;
