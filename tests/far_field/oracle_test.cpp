@@ -36,8 +36,10 @@ TEST_F(FarFieldOracle, defaultErrorIsBelowTheLimit) {
 
 TEST_F(FarFieldOracle, interleavedErrorIsBelowTheLimit) { EXPECT_LE(mean(values({}, "fast")).eA, 0.019); }
 
-// The paper's settings reproduce its error: 0.0212, measured with another implementation.
-TEST_F(FarFieldOracle, paperPresetHasThePublishedError) { EXPECT_NEAR(mean(values({}, "paper_16x2")).eA, 0.0212, 0.15 * 0.0212); }
+// The paper's settings, with its shortest interval, have the error of another implementation of them: 0.0212.
+TEST_F(FarFieldOracle, paperPresetHasTheErrorOfAnotherImplementation) {
+    EXPECT_NEAR(mean(values({{"interval", 5}}, "paper_16x2")).eA, 0.0212, 0.08 * 0.0212);
+}
 
 TEST_F(FarFieldOracle, everyImprovementReducesTheError) {
     const double slab = mean(values({}, "paper_16x2")).eA;

@@ -58,6 +58,39 @@ TEST_F(FarFieldThin, jitterAddsNoiseAndKeepsTheMean) {
     EXPECT_NEAR(mean(turned), mean(still), 0.05 * mean(still));
 }
 
+// Near field, far field, and both when interleaved.
+TEST_F(FarFieldThin, jitterTurnsEveryField) {
+    const Room room = board(20);
+    for (const char* preset : {"default", "fast", "paper_saao"})
+        for (const float parts : {1.0f, 2.0f}) {
+            const Changes still{{"parts", parts}, {"alternate", 0}, {"jitter", 0}},
+                turned{{"parts", parts}, {"alternate", 0}, {"jitter", 1}};
+            const Picture one = run(room, values(still, preset), falloff), two = run(room, values(turned, preset), falloff);
+            EXPECT_GT(difference(one, two), 0.02 * mean(one)) << preset << ", part " << parts;
+            EXPECT_NEAR(mean(two), mean(one), 0.05 * mean(one)) << preset << ", part " << parts;
+        }
+}
+
+// A setting that others leave without effect is logged, once.
+TEST_F(FarFieldThin, settingsWithoutEffectAreLogged) {
+    const Room room = board(20);
+    const auto warns = [&](const Changes& changes, const char* preset, const char* text) {
+        logged().clear();
+        run(room, values(changes, preset), falloff);
+        return loggedContains(text);
+    };
+    for (const ao::Preset& preset : ao::findMethod("far_field")->presets) EXPECT_FALSE(warns({}, preset.id, "has no effect")) << preset.id;
+    EXPECT_TRUE(warns({{"estimator", 1}}, "thin", "far_field: estimator has no effect"));
+    EXPECT_FALSE(warns({{"estimator", 1}}, "thin", "has no effect")) << "once is enough";
+    EXPECT_TRUE(warns({{"interleave", 2}}, "thin", "far_field: interleave has no effect"));
+    EXPECT_TRUE(warns({{"depth_layers", 1}}, "thin", "far_field: depth_layers has no effect"));
+    EXPECT_TRUE(warns({{"averaging", 1}}, "thin", "far_field: averaging has no effect"));
+    EXPECT_TRUE(warns({{"depth_layers", 1}}, "fast", "far_field: depth_layers has no effect when interleaved"));
+    EXPECT_TRUE(warns({{"depth_layers", 1}}, "paper_8x2", "far_field: depth_layers has no effect without the pyramid"));
+    EXPECT_TRUE(warns({{"neighbours", 1}}, "default", "far_field: neighbours has no effect"));
+    EXPECT_FALSE(warns({{"estimator", 1}}, "default", "has no effect"));
+}
+
 TEST_F(FarFieldThin, directSamplesNeedNoScan) {
     const Room room = board(20);
     const Picture direct = run(room, values({{"averaging", 3}, {"jitter", 0}}, "thin"), falloff);

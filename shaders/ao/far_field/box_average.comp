@@ -5,8 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/tile.glsl"
 #include "ao/far_field/constants.h"
+#include "ao/far_field/similar.glsl"
 #include "shared/octahedral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kSimilar = false;  // neighbours by similar(), else by ofSurface()
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
@@ -26,7 +28,8 @@ void main() {
             ivec2 at = p + ivec2(x, y), q = clamp(at, ivec2(0), last) + guard;
             float zq = imageLoad(depth, q).x;
             vec3 m = unpackNormal(imageLoad(normals, q).x);
-            bool same = at + guard == q && ofSurface(here, n, z, eyePosition(view, vec2(q) + 0.5, zq), m);
+            vec3 there = eyePosition(view, vec2(q) + 0.5, zq);
+            bool same = at + guard == q && (kSimilar ? similar(here, n, z, there, m) : ofSurface(here, n, z, there, m));
             float w = same || (x == 0 && y == 0) ? (abs(x) == reach ? outer : 1.0) * (abs(y) == reach ? outer : 1.0) : 0.0;
             depths += w * zq;
             sum += w * m;

@@ -34,9 +34,10 @@ Horizon horizonAt(float cosine) { return Horizon(cosine * abs(cosine), arcCosine
 bool raises(Horizon h, vec2 to) { return to.x > 0.0 && to.y * abs(to.y) > h.square * dot(to, to); }
 
 // point: from the receiver; slab: direction away from the camera, any length; before: the previous point, visible or not; connection:
-// weight of the line to it; all (u, z), along the sector and along the zenith. n: the normal projected on this plane, not normalised.
+// weight of the line to it; all (u, z), along the sector and along the zenith. covered: share of the segment's width that the point stands
+// for; the rest is sky, and the horizon rises by that share. n: the normal projected on this plane, not normalised.
 // found: false if there was no such point; nothing changes then.
-void raise(inout Horizon h, vec2 point, vec2 slab, vec2 before, float connection, bool found, vec2 n, float unit) {
+void raise(inout Horizon h, vec2 point, vec2 slab, vec2 before, float connection, float covered, bool found, vec2 n, float unit) {
     point.x = max(point.x, 1e-9);
     before -= point;
     float longer = sqrt(max(dot(slab, slab), 1e-30) / max(dot(before, before), 1e-30));
@@ -48,8 +49,9 @@ void raise(inout Horizon h, vec2 point, vec2 slab, vec2 before, float connection
     vec3 a = tableDifference(min(phi1, phi2), phi2, b / (b + unit));
     vec2 twice = vec2(2.0 * line.x * line.y, line.y * line.y - line.x * line.x) * inverse2;  // sin 2c, cos 2c
     float gained = 0.5 * ((twice.x * n.y - twice.y * n.x) * a.y - (twice.y * n.y + twice.x * n.x) * a.z + n.x * a.x);
-    h.blocked += found ? gained : 0.0;
-    h.square = found ? point.y * abs(point.y) / dot(point, point) : h.square;
+    h.blocked += found ? covered * gained : 0.0;
+    h.square = found ? mix(h.square, point.y * abs(point.y) / dot(point, point), covered) : h.square;
+    angle = mix(h.angle, angle, covered);
     h.connected = found ? min(h.connected + kConnectionRate * (h.angle - angle), 1.0) : h.connected;
     h.angle = found ? angle : h.angle;
 }

@@ -1,12 +1,12 @@
 // Splits depth layers into two fields. Background: endless surfaces, which are scanned for horizons like a single depth buffer: surfaces
 // without a known back and without a second layer, and open sheets behind a solid (a sheet behind a sheet is not background: leaves in
 // front of leaves). Objects: surfaces with a known back; they block only between front and back.
-// In: depth, normals, depth layers. Out: linear depth of the background; of objects, as halves, unit / depth of front and back, and the
-// growth of the former per pixel to the right and downwards; zeros without an object.
+// In: depth, normals, depth layers. Out: linear depth of the background; objects (objects.glsl), zeros without one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/layers_at.glsl"
 #include "ao/far_field/constants.h"
+#include "ao/far_field/objects.glsl"
 layout(set = 0, binding = 5, r32f) uniform writeonly image2D background;
 layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D objects;
 layout(push_constant) uniform Block { FarFieldFields constants; };
@@ -27,5 +27,5 @@ void main() {
     vec2 growth = n.xy * view.unproject.xy * constants.unit / (abs(away) > 1e-12 ? away : 1e-12);
     // The slope per pixel is at most the thickness, for fronts that curve away.
     float back = constants.unit / (s.first + abs(s.firstLength)), most = front - back;
-    imageStore(objects, p, last ? uvec4(0u) : uvec4(packHalf2x16(vec2(front, back)), packHalf2x16(clamp(growth, -most, most)), 0u, 0u));
+    imageStore(objects, p, last ? uvec4(0u) : uvec4(packSurface(front, back), packHalf2x16(clamp(growth, -most, most)), 0u, 0u));
 }

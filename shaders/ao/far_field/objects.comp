@@ -15,7 +15,7 @@ layout(push_constant) uniform Block { FarFieldConstants constants; };
 void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
     FarFieldConstants c = constants;
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    Direction d = directionsOf[c.first + gl_GlobalInvocationID.z];
     uint line = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y, steps = uint(c.interval);
     if (line >= d.lines || j >= d.intervals) return;
     float across = (float(line) + 0.5) * c.lineStep - d.origin.y, first = middleOf(d, c.interval, j) - 0.5 * c.interval + 0.5;
@@ -24,7 +24,7 @@ void main() {
     vec4 sum = vec4(0.0);
     for (uint i = 0u;;) {
         uvec2 texel = imageLoad(objects, clamp(ivec2(at), ivec2(0), last)).xy;
-        sum += vec4(unpackHalf2x16(texel.x), texel.x != 0u ? 1.0 : 0.0, dot(unpackHalf2x16(texel.y), d.along));  // zeros without an object
+        sum += texel.x != 0u ? vec4(unpackSurface(texel.x), 1.0, dot(unpackHalf2x16(texel.y), d.along)) : vec4(0.0);
         at += d.along;
         if (++i >= steps) break;
     }

@@ -10,7 +10,7 @@ layout(set = 0, binding = 1, rg32ui) uniform uimage2D cells;
 layout(push_constant) uniform Block { FarFieldObjectPyramid constants; };
 
 void main() {
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    Direction d = directionsOf[constants.first + gl_GlobalInvocationID.z];
     uint line = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y, lines = d.lines >> constants.level,
          below = d.lines >> (constants.level - 1u);
     if (line >= lines || j >= d.intervals >> constants.level) return;

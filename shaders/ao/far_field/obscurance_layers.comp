@@ -1,8 +1,9 @@
 // Obscurance from a background and objects in front of it: every sector of a pixel, near and far field [Timonen 2013, alg. 2].
 // In: linear depth of the background, packed normals, directions, cells, the falloff's table, objects and their cells, linear depth.
-// Out: visibility.
+// Out: visibility. BATCH as in obscurance.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variant BATCH
 const uint kThin = 0u;
 #include "ao/far_field/sectors.glsl"
 #include "ao/far_field/objects.glsl"
@@ -12,6 +13,9 @@ layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
 layout(set = 0, binding = 7, rg32ui) uniform readonly uimage2D objects;
 layout(set = 0, binding = 8, rg32ui) uniform readonly uimage2D objectCells;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D surfaces;
+#ifdef BATCH
+layout(set = 0, binding = 10, rg32f) uniform image2D sums;
+#endif
 
 // An object over an interval along a segment: the highest corner of its front (high / over, metres) and the data for the lowest corner of
 // its back.
@@ -52,9 +56,9 @@ void nearest(Segment s, Receiver r, Place at, Horizon h, uint i, float first, fl
     ivec2 texel = clamp(ivec2(r.pixel + t.y * s.along), ivec2(0), ivec2(r.size) - 1);
     float z = imageLoad(depth, texel).x;
     uvec2 object = imageLoad(objects, texel).xy;
-    vec2 point = pointAt(s, z, t.y), layer = unpackHalf2x16(object.x), growth = unpackHalf2x16(object.y);
+    vec2 point = pointAt(s, z, t.y), layer = unpackSurface(object.x), growth = unpackHalf2x16(object.y);
     bool inside = t.y < s.exit;
-    found = Found(point, 1.0, inside && z < skyDepth && raises(h, point));
+    found = Found(point, 1.0, kAllLines, inside && z < skyDepth && raises(h, point));
     // From the middle of the texel to that of the interval.
     layer *= 1.0 + clamp(dot(growth, r.pixel + 0.5 * (t.x + t.z) * s.along - (vec2(texel) + 0.5)) / max(layer.x, 1e-6), -0.8, 0.8);
     arc = arcOf(s, h, vec4(layer, inside && object.x != 0u ? 1.0 : 0.0, dot(growth, s.along) * (t.z - t.x)), at.perUnit, t.xz);
@@ -66,9 +70,9 @@ void next(Segment s, Place at, FarFieldConstants c, Horizon h, Direction kept, b
     float gap = max(c.longest * (float(j) - at.along / c.interval), 1.0);  // in intervals
     uint n = min(min(uint(findLSB(j)), uint(floatBitsToInt(gap) >> 23) - 127u), c.levels - 1u), jn = j >> n;
     float width = c.interval * float(1u << n), middle = (float(jn) + 0.5) * width, away = middle - at.along;
-    vec3 cell = cellAt(at, s, c, n, jn, middle, at.line + low * away, at.line + high * away);
-    vec2 to = seenAt(s, cell.x, cell.y, cell.z);
-    found = Found(to, cell.z, cell.z > 0.0 && raises(h, to));
+    Cell cell = cellAt(at, s, c, n, jn, away, at.line + low * away, at.line + high * away);
+    vec2 to = seenAt(s, cell.across, cell.depth, cell.over);
+    found = Found(to, cell.over, kAllLines, cell.over > kLeastOver && raises(h, to));
     uint lines = at.d.lines >> n;
     float line = clamp((at.line + 0.5 * (low + high) * away) * uintBitsToFloat((127u - n) << 23u) - 0.5, 0.0, float(lines - 1u));
     line = opposite ? float(lines - 1u) - line : line;
@@ -94,7 +98,7 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
         uint i = 0u, j = at.first,
              end = (c.parts & kFarPart) != 0u ? uint(clamp(ceil((at.along + s.exit) / c.interval), 0.0, float(at.d.intervals))) : 0u;
         float share = (c.parts & kNearPart) != 0u ? 1.0 : 0.0;
-        Found found = Found(vec2(0.0), 0.0, false), before = found;
+        Found found = kNone, before = found;
         Arc arc = Arc(vec2(0.0), 1.0, vec2(0.0), vec2(1.0), 1.0, 0.0, false);
         bool isFar = false;
         do {  // as sectorOf(): search for the next point or object that counts, then add it, objects first
@@ -114,7 +118,7 @@ vec2 layeredSectorOf(Receiver r, uint k, FarFieldConstants c, Turn turn, float s
             vec2 point = object ? arc.high / arc.over : found.to / max(found.over, 1e-12), n = s.n * (isFar ? 1.0 : share);
             vec2 line = object ? lowestOf(s, arc) - point
                                : lineBelow(slabAt(s, point), before.to / max(before.over, 1e-12) - point,
-                                     before.over > 0.0 ? c.connection * open.horizon.connected : 0.0);
+                                     before.over > kLeastOver ? c.connection * open.horizon.connected : 0.0);
             addOccluder(open, point, line, object, object ? arc.opacity : 1.0, object || (found.valid && raises(open.horizon, found.to)), n,
                 c.unit);
             found.valid = found.valid && object;
@@ -142,9 +146,13 @@ void main() {
     Receiver r = receiverAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x));
     Turn turn = jittered(turnOf(c), view, texel, c);
     vec2 sum = vec2(0.0);
-    for (uint k = 0u;;) {  // post-tested, see sectors.glsl
-        sum += layeredSectorOf(r, k, c, turn, view.skyDepth);
-        if ((k += c.stride) >= c.directions) break;
+    for (uint i = 0u;;) {  // post-tested, see sectors.glsl
+        sum += layeredSectorOf(r, directionOf(c, i), c, turn, view.skyDepth);
+        if ((i += c.stride) >= batchOf(c)) break;
     }
+#ifdef BATCH
+    if (c.first > 0u) sum += imageLoad(sums, p).xy;
+    imageStore(sums, p, vec4(sum, 0.0, 0.0));
+#endif
     imageStore(visibility, p, vec4(clamp(1.0 - 2.0 * sum.x / sum.y, 0.0, 1.0)));
 }

@@ -1,5 +1,6 @@
-// Prefix sums over lines, in place, one invocation per interval index [Timonen 2013, sec. 7]. Cells are (m0, m1, 1), or zeros if empty, so
-// one subtraction gives mean and count of any range of lines.
+// Prefix sums over lines, in place, one invocation per interval index [Timonen 2013, sec. 7]. A cell is (m0, m1, counts, rest): as floats
+// the sums of heights; as integers of 16 bits the number of lines with a point and, above, in the image; as halves what the sums lack. One
+// subtraction gives mean and counts of any range of lines. A float alone cannot hold the sum of many far lines and a near one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/far_field/grid.glsl"
@@ -12,14 +13,23 @@ layout(set = 0, binding = 0, std430) readonly buffer Directions { Direction dire
 layout(push_constant) uniform Block { FarFieldConstants constants; };
 
 void main() {
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    Direction d = directionsOf[directionOf(constants, gl_GlobalInvocationID.z)];
     uint level = gl_GlobalInvocationID.y, intervals = d.intervals >> level, j = gl_GlobalInvocationID.x;
     if (j >= intervals) return;
     uint at = levelBase(d, level, kPrefix) + j * d.lines;
-    vec4 sum = vec4(0.0);
+    vec2 sum = vec2(0.0), rest = vec2(0.0);
+    uint counts = 0u;
     for (uint line = 0u; line < d.lines; ++line) {
-        ivec2 cell = texelOf(at + line);
-        sum += imageLoad(cells, cell);
-        imageStore(cells, cell, sum);
+        ivec2 texel = texelOf(at + line);
+        uvec4 cell = imageLoad(cells, texel);
+        // Sum and rounding error [Knuth 1969, 4.2.2], then once more, so that the error stays below half a unit of the sum.
+        vec2 height = uintBitsToFloat(cell.xy);
+        precise vec2 whole = sum + height, part = whole - sum, error = (sum - (whole - part)) + (height - part) + rest;
+        precise vec2 next = whole + error;
+        precise vec2 left = error - (next - whole);
+        sum = next;
+        rest = left;
+        counts += cell.z;
+        imageStore(cells, texel, uvec4(floatBitsToUint(sum), counts, packHalf2x16(rest)));
     }
 }

@@ -15,12 +15,12 @@ void main() {
     View view = viewBlock;  // copies, so that the loop holds them in registers
     FarFieldConstants c = pyramid.constants;
     uint from = pyramid.from;
-    Direction d = directionsOf[gl_GlobalInvocationID.z];
+    Direction d = directionsOf[directionOf(c, gl_GlobalInvocationID.z)];
     uvec2 block = gl_GlobalInvocationID.xy;  // lines, intervals
     uint lines = d.lines >> from, intervals = d.intervals >> from;
     if (block.x * 8u >= lines || block.y * 8u >= intervals) return;
-    Axis axis = axisOf(view, d.along);
-    float width = c.interval * float(1u << from);
+    Axis axis = axisOf(view, d);
+    float width = c.interval * float(1u << from), perWidth = ldexp(c.perInterval, -int(from));
     uint above = min(3u, c.levels - 1u - from);
     uint side = 1u << above;  // cells of a block; 8 unless fewer than three levels are left
     block *= 8u;
@@ -35,8 +35,8 @@ void main() {
             for (uint i = 0u; i < 2u; ++i) best2[i] = vec2(kEmptyHeight);
             for (uint i = 0u; i < side; ++i) {
                 uint j = corner.y + i;
-                vec2 point = unpackHalf2x16(imageLoad(cells, texelOf(levelBase(d, from, kPyramid) + j * lines + line)).x);
-                best1[i >> 1u] = max(best1[i >> 1u], heightsOf(axis, c, point, middleOf(d, width, j)));
+                uint cell = imageLoad(cells, texelOf(levelBase(d, from, kPyramid) + j * lines + line)).x;
+                best1[i >> 1u] = max(best1[i >> 1u], heightsOf(axis, c, cell, width, startOf(d, width, j)));
             }
             for (uint i = 0u; i < 4u; ++i) best2[i >> 1u] = max(best2[i >> 1u], best1[i]);
             best3 = max(best2[0], best2[1]);
@@ -45,19 +45,19 @@ void main() {
                 mean1[i] = (l & 1u) == 0u ? point : mean1[i] + point;
                 if ((l & 1u) == 1u)
                     imageStore(cells, texelOf(levelBase(d, from + 1u, kPyramid) + ((corner.y >> 1u) + i) * (lines >> 1u) + (line >> 1u)),
-                        uvec4(packPoint(mean1[i] * 0.5)));
+                        uvec4(packPoint(mean1[i] * 0.5, 0.5 * perWidth)));
             }
             for (uint i = 0u; i < side / 4u; ++i) {
                 vec2 point = pointOf(axis, c, best2[i], middleOf(d, 4.0 * width, (corner.y >> 2u) + i));
                 mean2[i] = (l & 3u) == 0u ? point : mean2[i] + point;
                 if ((l & 3u) == 3u)
                     imageStore(cells, texelOf(levelBase(d, from + 2u, kPyramid) + ((corner.y >> 2u) + i) * (lines >> 2u) + (line >> 2u)),
-                        uvec4(packPoint(mean2[i] * 0.25)));
+                        uvec4(packPoint(mean2[i] * 0.25, 0.25 * perWidth)));
             }
             mean3 += pointOf(axis, c, best3, middleOf(d, 8.0 * width, corner.y >> 3u));
         }
         if (side == 8u)
             imageStore(cells, texelOf(levelBase(d, from + 3u, kPyramid) + (corner.y >> 3u) * (lines >> 3u) + (corner.x >> 3u)),
-                uvec4(packPoint(mean3 * 0.125)));
+                uvec4(packPoint(mean3 * 0.125, 0.125 * perWidth)));
     }
 }

@@ -8,22 +8,25 @@
 #include "shared/view.h"
 
 struct Receiver {
-    vec3 p;        // raised above the surface by one pixel's footprint, so that slanted planes do not shadow themselves
+    vec3 p;        // raised above the surface by a pixel's longer side, so that slanted planes do not shadow themselves
     vec2 pixel;    // projection of p; samples start there
     vec3 n, zenith;
     float nz;      // n.zenith
     float z0;
     vec2 scale;    // scale(D) = D * scale.x + scale.y
     vec2 unproject, size;
+    float area, trace;  // of a pixel projected onto the plane perpendicular to the zenith: its area, the sum of its sides' squares
 };
 Receiver receiverAt(View view, ivec2 texel, float depth, vec3 n) {
     vec2 scale = view.orthographic > 0.5 ? vec2(0, 1) : vec2(1, 0);
     vec3 p = eyePosition(view, vec2(texel) + 0.5, depth);
     n = dot(n, towardsEye(view, p)) < 0.0 ? -n : n;
-    p += n * ((depth * scale.x + scale.y) / view.pixelsPerMetre);
+    p += n * ((depth * scale.x + scale.y) * max(abs(view.unproject.x), abs(view.unproject.y)));
     vec3 zenith = towardsEye(view, p);
     float z0 = view.orthographic > 0.5 ? -1.0 : dot(p, zenith) / -p.z;
-    return Receiver(p, pixelOf(view, p), n, zenith, max(dot(n, zenith), 0.0), z0, scale, view.unproject.xy, vec2(view.size));
+    vec2 sides2 = view.unproject.xy * view.unproject.xy;
+    return Receiver(p, pixelOf(view, p), n, zenith, max(dot(n, zenith), 0.0), z0, scale, view.unproject.xy, vec2(view.size),
+        abs(view.unproject.x * view.unproject.y) * zenith.z, dot(sides2, 1.0 - zenith.xy * zenith.xy));
 }
 
 struct Segment {
@@ -51,9 +54,9 @@ Segment segmentOf(Receiver r, vec2 along, float stretch, vec2 width) {
     s.dz = g2 * perStep * ez * stretch * r.scale.x;
     s.n = vec2((dot(r.n.xy, e) - ez * r.nz) * inverse, r.nz);
     s.start = -s.n.x * inversesqrt(max(dot(s.n, s.n), 1e-20));
-    // Width in azimuth: the angle between the segment's two sides projected onto the plane perpendicular to the zenith.
-    s.weight = arcTangent(
-        2.0 * width.x * width.y * r.zenith.z, width.x * width.x * sine2 - width.y * width.y * (r.zenith.z * r.zenith.z + ez * ez));
+    // Width in azimuth: the angle between the segment's two sides, (width.x, +-width.y) pixels along and across, projected onto the plane
+    // perpendicular to the zenith. The squares of steps along and across, projected, add up to r.trace.
+    s.weight = arcTangent(2.0 * width.x * width.y * r.area, g2 * sine2 - width.y * width.y * r.trace);
     vec2 space = mix(r.pixel, r.size - r.pixel, greaterThan(along, vec2(0.0))) / max(abs(along), vec2(1e-6));
     s.exit = min(space.x, space.y) / stretch;
     s.scale = r.scale;

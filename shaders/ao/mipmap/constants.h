@@ -4,19 +4,16 @@
 #include "shared/types.h"
 OBSCURA_SHARED_BEGIN
 
-struct MipmapReduce {  // reduce.comp
-    uint nearest;  // 1: the nearest of the texels that a texel covers; 0: their mean
-};
-OBSCURA_SHARED_SIZE(MipmapReduce, 4);
-
 struct MipmapObscurance {  // obscurance.comp
     uint directions;  // K
     float factor;     // from step to step
     float unit;       // metres: the falloff's length
     float thickness;  // of surfaces, metres
     float jitter;     // of directions, fraction of a sector
+    float first;      // px, distance of the first sample
+    float step;       // px, to it from the one before
 };
-OBSCURA_SHARED_SIZE(MipmapObscurance, 20);
+OBSCURA_SHARED_SIZE(MipmapObscurance, 28);
 
 OBSCURA_SHARED_END
 #endif

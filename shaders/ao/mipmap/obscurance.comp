@@ -25,7 +25,7 @@ void main() {
     if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     ivec2 texel = p + ivec2(view.guard);
     float z = texelFetch(pyramid, texel, 0).x;
-    if (isSky(view, z)) {
+    if (z == 0.0) {  // sky
         imageStore(visibility, p, vec4(1.0));
         return;
     }
@@ -39,30 +39,34 @@ void main() {
         Segment s = segmentOf(r, along, 1.0, side);
         Horizon h = horizonAt(s.start);
         Bins bins = binsBelow(s.start);
-        float edge = s.exit - 0.5, t = 1.0, step = 1.0;
+        float edge = s.exit - 0.5, t = constants.first, step = constants.step;
         bool more = true;
         while (more) {
-            vec2 point;
+            vec2 to;  // from the receiver, metres times coverage
+            float covered = 1.0;
             bool found = false;
             while (!found && more) {
                 more = t < edge;
                 float at = min(t, edge);
-                float level = log2(max(width * at, 1.0)), sampled;
+                float level = log2(max(width * at, 1.0));
+                vec2 sampled;  // depth times coverage, coverage
                 vec2 where = r.pixel + at * s.along;
                 if (kThin != 0u) {
                     int mip = min(int(level + 0.5), textureQueryLevels(pyramid) - 1);
-                    sampled = texelFetch(pyramid, min(ivec2(where) >> mip, textureSize(pyramid, mip) - 1), mip).x;
+                    vec2 size = vec2(max(view.size >> mip, 1u));  // not halves: 27 rows are made of 54, and 13 of 27
+                    sampled = texelFetch(pyramid, ivec2(min(where * texelSize * size, size - 0.5)), mip).xy;
                 } else {
-                    sampled = textureLod(pyramid, where * texelSize, level).x;
+                    sampled = textureLod(pyramid, where * texelSize, level).xy;
                 }
-                point = pointAt(s, sampled, at);
-                found = sampled < view.skyDepth && (kThin != 0u || raises(h, point));
+                covered = kThin != 0u ? 1.0 : sampled.y;
+                to = seenAt(s, (sampled.x * s.scale.x + covered * s.scale.y) * at, sampled.x, covered);
+                found = (kThin != 0u ? sampled.x > 0.0 : covered > 1e-3) && (kThin != 0u || raises(h, to));
                 step *= growth;
                 t += step;
             }
-            vec2 slab = slabAt(s, point);
+            vec2 point = kThin != 0u ? to : to / max(covered, 1e-6), slab = slabAt(s, point);
             if (kThin != 0u) addSlab(bins, point, normalize(slab), thick, found, s.n, metres);
-            else raise(h, point, slab, vec2(0.0), 0.0, found, s.n, metres);
+            else raise(h, point, slab, vec2(0.0), 0.0, covered, found, s.n, metres);
         }
         sum += s.weight * vec2(kThin != 0u ? bins.sum : h.blocked, 1.0);
         along = next * along;

@@ -10,7 +10,9 @@
 // - Intervals lie on one grid per direction, so that neighbouring lines can be averaged [alg. 1 starts anew on each line].
 // - The four-dimensional table reduces exactly to two dimensions (shaders/ao/far_field/estimator.glsl).
 // - Samples start at the projection of the receiver after it is raised by one pixel's footprint.
-// - Lines that are sky or outside are excluded from means by a third prefix sum, which counts lines.
+// - Prefix sums also count lines with a point, and lines in the image. Lines outside take no part in means; sky takes none in points, but
+//   points then cover that fraction of a sector.
+// - s is limited in wide views, where view rays are flatter than the receiver angle.
 // The default extends the paper: below a point is a blend of slab and connection (to the previous point, visible or not: a line to the last
 // visible point would block the gap between two columns), points are seen from above and below (s = 1), and are averaged as 1/depth by a
 // lateral pyramid, which needs a sixth of the memory of prefix sums and no pass over every cell.
@@ -21,99 +23,31 @@
 // Only the pyramid reads layers, because it can average both fields.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: table (when the falloff changes),
-// scan, prefix sums or pyramid, obscurance; interleaved also near field, box average, gather, blur; with layers also fields, objects and
-// objects pyramid.
+// scan, prefix sums or pyramid, obscurance (all three again for every batch of directions, if not all fit into memory); interleaved also
+// near field, box average, gather, blur; with layers also fields, objects and objects pyramid.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <map>
 #include <string>
+#include <tuple>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "ao/falloff_table.h"
 #include "ao/interleave.h"
 #include "ao/layer_pass.h"
 #include "ao/methods/far_field/layers.h"
+#include "ao/methods/far_field/parameters.h"
 
 namespace obscura::ao::far_field {
 namespace {
 
-const char* const kAveragings[] = {"none", "prefix sums", "pyramid", "direct"};
-constexpr float kTile3x3 = 2;  // in kInterleaves
-enum Estimator : uint32_t { kSlab, kConnected, kBlended };
-const char* const kEstimators[] = {"slab", "connected", "blended"};
-const char* const kParts[] = {"both", "near", "far"};
-const char* const kOffOn[] = {"off", "on"};
-const char* const kSparsities[] = {"every", "every 2nd", "every 4th"};
-
-const Parameter kParameters[] = {
-    {"directions", "", 4, 32, 12, true, {},
-        "Directions in which the depth buffer is scanned, K. Cost and memory grow with them; even numbers scan opposite directions "
-        "together. Too few: bands."},
-    {"segments", "", 1, 8, 2, true, {},
-        "Segments of each sector, evaluated separately. The cost per pixel grows with directions x segments. Too few: bands."},
-    {"interval", "px", 3, 20, 5, true, {},
-        "Shortest interval that is reduced to one point, B0. Longer costs less and widens the near field. Too long: small occluders are "
-        "missed."},
-    {"longest", "", 0.25f, 1, 0.5f, false, {},
-        "Longest interval, as a fraction of its distance; 1 in the paper. Shorter costs more. Too long: intervals, which run along the "
-        "middle of a sector, reach across its sides and leave bands."},
-    {"lines", "", 0, 2, 0, true, {kSparsities, 3},
-        "Which of the scan lines, 1 px apart, are used. Fewer cost less; too few: thin objects are missed."},
-    {"slope", "", -2, 2, 1, false, {},
-        "Slope s of the second angle from which the highest point of an interval is chosen: -1, from above, in the paper. 0 counts as 1."},
-    {"estimator", "", 0, 2, 2, true, {kEstimators, 3},
-        "Shape of the surface below a point: a slab away from the camera, as in the paper, a line to the previous point, or a blend of "
-        "both. All cost the same."},
-    {"averaging", "", 0, 3, 2, true, {kAveragings, 4},
-        "How points are averaged over the width of a sector: not at all, by the paper's prefix sums, or by a lateral pyramid of 1/depth, "
-        "with a sixth of the memory. direct: single texels of the depth buffer, no scans. Without averaging thin objects alias. Only the "
-        "pyramid reads depth layers."},
-    {"near", "", 0, 16, 5, true, {},
-        "Samples of the near field in each segment. Cost grows with them. 0: far field only; too few: contact shadows are lost."},
-    {"parts", "", 0, 2, 0, true, {kParts, 3},
-        "Output: both fields, the near field alone, or the far field alone above the horizon of the near field."},
-    kInterleave,
-    {"thickness", "m", 0, 100, 0, false, {},
-        "Thickness of surfaces, in 32 bins of each sector; 0: endless. Above 0 turns off averaging, interleaving and depth layers. Too "
-        "low: light leaks through solid objects."},
-    {"jitter", "", 0, 1, 0, false, {},
-        "Random turn of the directions of each pixel, as a fraction of half a segment: noise instead of bands. The interleaved far field "
-        "ignores it."},
-    {"alternate", "", 0, 1, 1, true, {kOffOn, 2},
-        "Turns the directions of every other pixel by half a segment: bands become a fine checkerboard, which shows beside tall objects "
-        "only. Free. Off if interleaved or jittered."},
-    kDepthLayers,
-    kSheet,
-    {"blur", "", 0, 0.5f, 0.07f, false, {},
-        "After interleaving: 5x5 mean of neighbours whose visibility differs by at most this; 0: off. Too low: grain where near and far "
-        "field meet; too high: contact shadows blur."},
-};
-const Setting kPaper8[] = {{"directions", 8}, {"segments", 2}, {"alternate", 0}, {"interval", 10}, {"longest", 1}, {"slope", -1},
-    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaper16[] = {{"directions", 16}, {"segments", 2}, {"alternate", 0}, {"interval", 5}, {"longest", 1}, {"slope", -1},
-    {"estimator", kSlab}, {"averaging", 1}, {"near", 5}};
-const Setting kPaperSaao[] = {{"directions", 18}, {"segments", 2}, {"interval", 10}, {"longest", 1}, {"slope", -1}, {"estimator", kSlab},
-    {"averaging", 1}, {"near", 5}, {"interleave", kTile3x3}};
-const Setting kFast[] = {{"directions", 18}, {"segments", 2}, {"longest", 1}, {"near", 3}, {"interleave", kTile3x3}};
-const Setting kThin[] = {
-    {"directions", 16}, {"segments", 1}, {"longest", 1}, {"averaging", 0}, {"near", 3}, {"thickness", 0.1f}, {"jitter", 1}};
-const Setting kLayers[] = {{"depth_layers", float(LayerMode::second)}};
-const Preset kPresets[] = {
-    {"default", "12 directions x 2 segments, blended estimator, lateral pyramid.", {}},
-    {"paper_8x2", "The paper's smaller setting: 8 directions x 2 segments.", {kPaper8, std::size(kPaper8)}},
-    {"paper_16x2", "The paper's larger setting: 16 directions x 2 segments.", {kPaper16, std::size(kPaper16)}},
-    {"paper_saao", "The paper's interleaved setting: 18 directions x 2 segments, blurred.", {kPaperSaao, std::size(kPaperSaao)}},
-    {"fast", "Interleaved over 3x3 pixels: each pixel evaluates a ninth of the far field.", {kFast, std::size(kFast)}},
-    {"layers", "The default with depth layers: finite objects stop occluding behind their back faces.", {kLayers, std::size(kLayers)}},
-    {"thin", "Surfaces 10 cm thick, 16 directions without averaging, jittered.", {kThin, std::size(kThin)}},
-};
-const MethodInfo kInfo{"far_field", "Far-field ambient obscurance", "Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013",
-    "Occluders from the whole depth buffer, at a cost that does not depend on radius or falloff.", kDepth | kNormals,
-    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
-
 class FarField final : public Method {
 public:
+    FarField(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders) {}
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
-        auto result = std::make_unique<FarField>();
+        auto result = std::make_unique<FarField>(device, shaders);
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         for (uint32_t i = 0; i < 4; ++i) {
             const bool thin = i == uint32_t(Averaging::none) || i == uint32_t(Averaging::direct);
@@ -130,8 +64,12 @@ public:
         const struct {
             const char* name;
             gpu::Program* program;
-        } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid}, {"box_average", &result->m_boxAverage},
+        } programs[] = {{"prefix", &result->m_prefix}, {"pyramid", &result->m_pyramid}, {"gather", &result->m_gatherSimilar},
             {"blur", &result->m_blur}};
+        for (uint32_t similar = 0; similar < 2; ++similar)
+            if (gpu::Program::compute(device, shaders, "ao/far_field/box_average.comp", {{0, similar}}, result->m_boxAverage[similar]) !=
+                gpu::Status::ok)
+                return nullptr;
         if (Gather::create(device, shaders, result->m_gather) != Status::ok ||
             FarFieldLayers::create(device, shaders, result->m_layers) != gpu::Status::ok)
             return nullptr;
@@ -153,9 +91,20 @@ public:
         if (thickness > 0.0f && averaging != Averaging::direct) averaging = Averaging::none;
         const uint32_t directions = std::min(sharedOut(values.count("directions"), side), 32u / (side * side) * side * side),
                        lineStep = 1u << values.count("lines");
-        const FarFieldGrid grid =
-            farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, graph.device().caps().maxImageSize);
-        const float slope = values["slope"];
+        const FarFieldLimits limits{uint64_t(values.count("memory")) << 20, graph.device().caps().maxImageSize};
+        FarFieldGrid grid = farFieldGrid(view.size, directions, values.count("interval"), lineStep, averaging, limits);
+        if (grid.interval != values.count("interval") && grid.interval != m_widened)
+            graph.device().log(gpu::Severity::warning,
+                fmt::format("far_field: interval is {} px, because the points of a direction do not fit into memory = {} MB and images of "
+                            "{} rows",
+                    grid.interval, values.count("memory"), limits.rows));
+        m_widened = grid.interval;
+        if (std::string text = withoutEffect(values); text != m_withoutEffect) {
+            if (!text.empty()) graph.device().log(gpu::Severity::warning, "far_field: " + text);
+            m_withoutEffect = std::move(text);
+        }
+        const float slope = std::abs(values["slope"]) < 0.01f ? 1.0f : values["slope"];
+        setAxes(grid, view, slope);
         const float connections[] = {0.0f, 1.0f, 0.75f};
         shared::FarFieldConstants constants{};
         constants.directions = directions;
@@ -163,52 +112,35 @@ public:
         constants.segments = values.count("segments");
         constants.levels = grid.levels;
         constants.interval = float(grid.interval);
+        constants.perInterval = 256.0f / constants.interval;
         constants.lineStep = float(lineStep);
-        constants.slope = std::abs(slope) < 0.01f ? 1.0f : slope;
         constants.connection = connections[values.count("estimator")];
         constants.longest = values["longest"];
         constants.unit = inputs.falloffDesc.length;
         constants.taps = values.count("near");
         constants.parts = values.count("parts") ? values.count("parts") : shared::kNearPart | shared::kFarPart;
-        constants.paired = directions % 2 == 0;
+        constants.paired = grid.half < directions;
+        constants.count = grid.half;
         constants.thickness = thickness;
         constants.jitter = values["jitter"];
         constants.alternate = side == 1 && constants.jitter <= 0.0f && values.count("alternate");
 
         const FarFieldLayers::Fields fields =
             layered ? m_layers.split(graph, inputs, values["sheet"]) : FarFieldLayers::Fields{inputs.depth, {}};
-        const graph::BufferId grids =
-            graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction));
-        graph::ImageId cells = inputs.normals;  // bound but not read if there are no cells
-        if (averaging != Averaging::direct) cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
-        const uint32_t run = averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1);
-        if (averaging != Averaging::direct)
-            graph.pass("far_field.scan", m_scan[uint32_t(averaging)])
-                .read(inputs.viewBlock)
-                .read(fields.background)
-                .read(grids)
-                .write(cells)
-                .constants(constants)
-                .dispatch(grid.lines, grid.intervals / run, constants.paired ? directions / 2 : directions);
-        if (averaging == Averaging::prefixSums)
-            graph.pass("far_field.prefix sums", m_prefix)
-                .read(grids)
-                .write(cells)
-                .constants(constants)
-                .dispatch(grid.intervals, grid.levels, directions);
-        for (uint32_t from = 0; averaging == Averaging::pyramid && from + 1 < grid.levels; from += 3) {
-            const uint32_t block = 8u << from;
-            graph.pass("far_field.pyramid", m_pyramid)
-                .read(inputs.viewBlock)
-                .read(grids)
-                .write(cells)
-                .constants(shared::FarFieldPyramid{constants, from})
-                .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
+        Scanned scanned{grid,
+            graph.upload("far_field.directions", grid.directions.data(), grid.directions.size() * sizeof(shared::Direction)), fields, {},
+            inputs.normals, {}, averaging, constants};
+        if (averaging != Averaging::direct) scanned.cells = graph.image("far_field.cells", {grid.format, shared::kCellsWide, grid.rows});
+        if (side > 1) return interleaved(graph, inputs, scanned, side, values.count("neighbours"), values["blur"]);
+        const auto& visible = view.visible;
+        const graph::ImageId result = graph.image("far_field.obscurance", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
+        graph::ImageId sums;
+        if (grid.batch < grid.half) sums = graph.image("far_field.sums", {VK_FORMAT_R32G32_SFLOAT, visible.x, visible.y});
+        for (uint32_t first = 0; first < grid.half; first += grid.batch) {
+            scan(graph, inputs, scanned, first);
+            if (!obscurance(graph, inputs, scanned, "far_field.obscurance", result, sums)) return {};
         }
-        const Scanned scanned{grids, cells, m_table.add(graph, inputs, "far_field.table"), averaging, constants};
-        if (layered) return layers(graph, inputs, scanned, fields, m_layers.scan(graph, inputs, fields.objects, grids, grid, constants));
-        return side > 1 ? interleaved(graph, inputs, scanned, side, values["blur"])
-                        : obscurance(graph, inputs, scanned, "far_field.obscurance");
+        return result;
     }
 
     // Without layers even the farthest surface is endless.
@@ -219,28 +151,89 @@ public:
 
 private:
     struct Scanned {
+        const FarFieldGrid& grid;
         graph::BufferId grids;
-        graph::ImageId cells;
+        FarFieldLayers::Fields fields;  // without layers the background alone
         graph::ImageId table;
+        graph::ImageId cells;        // bound but not read if there are no cells
+        graph::ImageId objectCells;  // with layers
         Averaging averaging;
         shared::FarFieldConstants constants;
     };
 
-    graph::ImageId obscurance(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const char* name) {
-        const auto& visible = inputs.view.visible;
-        const graph::ImageId result = graph.image(name, {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        auto& programs = scanned.constants.thickness > 0.0f ? m_thin : m_obscurance;
-        graph.pass(name, programs[uint32_t(scanned.averaging)])
+    // Cells of the batch that begins with a direction; they replace those before it. The first time also the table.
+    void scan(graph::Graph& graph, const Inputs& inputs, Scanned& scanned, uint32_t first) {
+        const FarFieldGrid& grid = scanned.grid;
+        shared::FarFieldConstants& constants = scanned.constants;
+        constants.first = first;
+        constants.count = std::min(grid.batch, grid.half - first);
+        if (scanned.averaging != Averaging::direct) cells(graph, inputs, scanned);
+        if (first == 0) scanned.table = m_table.add(graph, inputs, "far_field.table");
+        if (scanned.fields.objects)
+            scanned.objectCells = m_layers.scan(graph, inputs, scanned.fields.objects, scanned.grids, grid, constants);
+    }
+
+    void cells(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned) {
+        const FarFieldGrid& grid = scanned.grid;
+        const shared::FarFieldConstants& constants = scanned.constants;
+        const uint32_t run = scanned.averaging == Averaging::pyramid ? 1 : 1u << (grid.levels - 1),
+                       directions = constants.paired ? 2 * constants.count : constants.count;
+        graph.pass("far_field.scan", m_scan[uint32_t(scanned.averaging)])
             .read(inputs.viewBlock)
-            .read(inputs.depth)
-            .read(inputs.normals)
+            .read(scanned.fields.background)
             .read(scanned.grids)
-            .read(scanned.cells)
-            .read(scanned.table)
-            .write(result)
-            .constants(scanned.constants)
-            .dispatch(visible.x, visible.y);
-        return result;
+            .write(scanned.cells)
+            .constants(constants)
+            .dispatch(grid.lines, grid.intervals / run, constants.count);
+        if (scanned.averaging == Averaging::prefixSums)
+            graph.pass("far_field.prefix sums", m_prefix)
+                .read(scanned.grids)
+                .write(scanned.cells)
+                .constants(constants)
+                .dispatch(grid.intervals, grid.levels, directions);
+        for (uint32_t from = 0; scanned.averaging == Averaging::pyramid && from + 1 < grid.levels; from += 3) {
+            const uint32_t block = 8u << from;
+            graph.pass("far_field.pyramid", m_pyramid)
+                .read(inputs.viewBlock)
+                .read(scanned.grids)
+                .write(scanned.cells)
+                .constants(shared::FarFieldPyramid{constants, from})
+                .dispatch((grid.lines + block - 1) / block, (grid.intervals + block - 1) / block, directions);
+        }
+    }
+
+    // A program for batches of directions, made when it is first needed: images that need them are large. Null if it cannot be made.
+    gpu::Program* batched(const char* pass, Averaging averaging, bool thin = false) {
+        gpu::Program& program = m_batched[{pass, averaging, thin}];
+        std::vector<gpu::Constant> constants{{0, uint32_t(averaging)}};
+        if (thin) constants.push_back({1, 1});
+        const char* end = averaging == Averaging::prefixSums ? ".comp:SUMS,BATCH" : ".comp:BATCH";
+        if (!program &&
+            gpu::Program::compute(m_device, m_shaders, std::string("ao/far_field/") + pass + end, constants, program) != gpu::Status::ok)
+            return nullptr;
+        return &program;
+    }
+
+    // Adds to `sums`, of batches of directions, unless there is one batch. False if a program cannot be made.
+    bool obscurance(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const char* name, graph::ImageId result,
+        graph::ImageId sums = {}) {
+        const bool thin = scanned.constants.thickness > 0.0f, layered = bool(scanned.objectCells);
+        gpu::Program* program = layered ? &m_layered : &(thin ? m_thin : m_obscurance)[uint32_t(scanned.averaging)];
+        if (sums) program = batched(layered ? "obscurance_layers" : "obscurance", scanned.averaging, thin);
+        if (!program) return false;
+        graph::Pass& pass = graph.pass(name, *program)
+                                .read(inputs.viewBlock)
+                                .read(scanned.fields.background)
+                                .read(inputs.normals)
+                                .read(scanned.grids)
+                                .read(scanned.cells)
+                                .read(scanned.table)
+                                .write(result)
+                                .constants(scanned.constants);
+        if (layered) pass.read(scanned.fields.objects).read(scanned.objectCells).read(inputs.depth);
+        if (sums) pass.write(sums);
+        pass.dispatch(inputs.view.visible.x, inputs.view.visible.y);
+        return true;
     }
 
     static bool readsLayers(const Values& values) {
@@ -248,60 +241,64 @@ private:
                values["thickness"] <= 0.0f && tileSide(values) == 1;
     }
 
-    graph::ImageId layers(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, const FarFieldLayers::Fields& fields,
-        graph::ImageId objectCells) {
-        const auto& visible = inputs.view.visible;
-        const graph::ImageId result = graph.image("far_field.obscurance", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("far_field.obscurance", m_layered)
-            .read(inputs.viewBlock)
-            .read(fields.background)
-            .read(inputs.normals)
-            .read(scanned.grids)
-            .read(scanned.cells)
-            .read(scanned.table)
-            .write(result)
-            .read(fields.objects)
-            .read(objectCells)
-            .read(inputs.depth)
-            .constants(scanned.constants)
-            .dispatch(visible.x, visible.y);
-        return result;
-    }
-
     // [Timonen 2013, sec. 10]: every pixel evaluates its whole near field; the far field is interleaved over a tile.
-    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, const Scanned& scanned, uint32_t side, float threshold) {
+    graph::ImageId interleaved(graph::Graph& graph, const Inputs& inputs, Scanned& scanned, uint32_t side, bool similar, float threshold) {
         const auto& visible = inputs.view.visible;
-        Scanned near = scanned, far = scanned;
+        scanned.constants.side = side;
+        Scanned near = scanned;
         near.constants.segments = 1;
         // Stride 2 is not in the paper: it halves the time and adds an error of 0.002.
         near.constants.stride = scanned.averaging == Averaging::pyramid && scanned.constants.directions >= 16 ? 2 : 1;
+        near.constants.alternate = near.constants.stride > 1 && near.constants.jitter <= 0.0f;  // nine directions have no mirror image
         near.constants.parts &= shared::kNearPart;
-        far.constants.parts &= shared::kFarPart;
-        near.constants.side = far.constants.side = side;
-        const graph::ImageId nearField = obscurance(graph, inputs, near, "far_field.near field");
+        scanned.constants.parts &= shared::kFarPart;
+        const graph::ImageId nearField = graph.image("far_field.near field", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         const graph::ImageId surfaces = graph.image("far_field.surfaces", {VK_FORMAT_R32G32_UINT, visible.x, visible.y});
-        graph.pass("far_field.box average", m_boxAverage)
-            .read(inputs.viewBlock)
-            .read(inputs.depth)
-            .read(inputs.normals)
-            .write(surfaces)
-            .constants(shared::FarFieldBoxAverage{side})
-            .dispatch(visible.x, visible.y);
         const graph::ImageId shares = graph.image("far_field.shares", {VK_FORMAT_R16G16_SFLOAT, visible.x, visible.y});
-        graph.pass("far_field.obscurance", m_interleaved[uint32_t(far.averaging)])
-            .read(inputs.viewBlock)
-            .read(inputs.depth)
-            .read(surfaces)
-            .read(far.grids)
-            .read(far.cells)
-            .read(far.table)
-            .write(shares)
-            .constants(far.constants)
-            .dispatch(visible.x, visible.y);
-        const graph::ImageId gathered = m_gather.add(graph, inputs, shares, side, nearField);
+        for (uint32_t first = 0; first < scanned.grid.half; first += scanned.grid.batch) {
+            scan(graph, inputs, scanned, first);
+            if (first == 0) {
+                near.table = scanned.table;
+                obscurance(graph, inputs, near, "far_field.near field", nearField);
+                graph.pass("far_field.box average", m_boxAverage[similar])
+                    .read(inputs.viewBlock)
+                    .read(inputs.depth)
+                    .read(inputs.normals)
+                    .write(surfaces)
+                    .constants(shared::FarFieldBoxAverage{side})
+                    .dispatch(visible.x, visible.y);
+            }
+            gpu::Program* program = &m_interleaved[uint32_t(scanned.averaging)];
+            if (scanned.grid.batch < scanned.grid.half) program = batched("interleaved", scanned.averaging);
+            if (!program) return {};
+            graph.pass("far_field.obscurance", *program)
+                .read(inputs.viewBlock)
+                .read(inputs.depth)
+                .read(surfaces)
+                .read(scanned.grids)
+                .read(scanned.cells)
+                .read(scanned.table)
+                .write(shares)
+                .constants(scanned.constants)
+                .dispatch(visible.x, visible.y);
+        }
+        const graph::ImageId gathered =
+            similar ? graph.image("far_field.gathered", graph.desc(nearField)) : m_gather.add(graph, inputs, shares, side, nearField);
+        if (similar)
+            graph.pass("far_field.gather", m_gatherSimilar)
+                .read(inputs.viewBlock)
+                .read(inputs.depth)
+                .read(inputs.normals)
+                .read(shares)
+                .read(nearField)
+                .write(gathered)
+                .constants(shared::Gather{side})
+                .dispatch(visible.x, visible.y);
         if (threshold <= 0.0f) return gathered;
         const graph::ImageId blurred = graph.image("far_field.blurred", graph.desc(gathered));
         graph.pass("far_field.blur", m_blur)
+            .read(inputs.viewBlock)
+            .read(inputs.depth)
             .read(gathered)
             .write(blurred)
             .constants(shared::FarFieldBlur{threshold})
@@ -309,9 +306,15 @@ private:
         return blurred;
     }
 
+    gpu::Device& m_device;
+    const gpu::ShaderLibrary& m_shaders;
+    uint32_t m_widened = 0;       // the interval of the last frame, for the log
+    std::string m_withoutEffect;  // as logged last
     FalloffTable m_table;
+    std::map<std::tuple<std::string, Averaging, bool>, gpu::Program> m_batched;
     gpu::Program m_scan[4], m_obscurance[4], m_thin[4], m_interleaved[4];  // by averaging
-    gpu::Program m_prefix, m_pyramid, m_boxAverage, m_blur, m_layered;
+    gpu::Program m_boxAverage[2];                                          // neighbours by plane, by depth
+    gpu::Program m_prefix, m_pyramid, m_gatherSimilar, m_blur, m_layered;
     FarFieldLayers m_layers;
     Gather m_gather;
 };

@@ -36,8 +36,7 @@ FarFieldLayers::Fields FarFieldLayers::split(graph::Graph& graph, const Inputs& 
 
 graph::ImageId FarFieldLayers::scan(graph::Graph& graph, const Inputs& inputs, graph::ImageId objects, graph::BufferId grids,
     const FarFieldGrid& grid, const shared::FarFieldConstants& constants) {
-    const uint32_t directions = constants.paired ? constants.directions / 2 : constants.directions;
-    const shared::Direction& last = grid.directions[directions - 1];
+    const shared::Direction& last = grid.directions[constants.first + constants.count - 1];
     const graph::ImageId cells = graph.image("far_field.object cells",
         {VK_FORMAT_R32G32_UINT, shared::kCellsWide, (last.base + last.total + shared::kCellsWide - 1) / shared::kCellsWide});
     graph.pass("far_field.objects", m_scan)
@@ -46,13 +45,13 @@ graph::ImageId FarFieldLayers::scan(graph::Graph& graph, const Inputs& inputs, g
         .read(grids)
         .write(cells)
         .constants(constants)
-        .dispatch(grid.lines, grid.intervals, directions);
+        .dispatch(grid.lines, grid.intervals, constants.count);
     for (uint32_t level = 1; level < grid.levels; ++level)
         graph.pass("far_field.objects pyramid", m_pyramid)
             .read(grids)
             .write(cells)
-            .constants(shared::FarFieldObjectPyramid{level})
-            .dispatch(grid.lines >> level, grid.intervals >> level, directions);
+            .constants(shared::FarFieldObjectPyramid{constants.first, level})
+            .dispatch(grid.lines >> level, grid.intervals >> level, constants.count);
     return cells;
 }
 

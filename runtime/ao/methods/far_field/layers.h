@@ -15,7 +15,8 @@ public:
         graph::ImageId objects;     // RG32UI, view.size; layout: shaders/ao/far_field/fields.comp
     };
     Fields split(graph::Graph& graph, const Inputs& inputs, float sheet);
-    // Means of objects over intervals, all levels: RG32UI in the grid's order; if directions are paired, of their first half only.
+    // Means of objects over intervals of the batch in `constants`, all levels: RG32UI in the grid's order; if directions are paired, of
+    // their first half only.
     graph::ImageId scan(graph::Graph& graph, const Inputs& inputs, graph::ImageId objects, graph::BufferId grids, const FarFieldGrid& grid,
         const shared::FarFieldConstants& constants);
 

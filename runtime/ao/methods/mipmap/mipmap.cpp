@@ -1,7 +1,7 @@
 // Mipmapped ambient obscurance, the baseline of the far-field paper [Timonen: Screen-Space Far-Field Ambient Obscurance, HPG 2013, sec. 5].
 // Along K directions the depth pyramid is sampled trilinearly at distances that grow by a factor, from the level whose texels are as wide
 // as the sector, and once more at the edge of the image. Estimator (with the paper's slabs) and table are far_field's; only the source of
-// the points differs.
+// the points differs. Sky takes no part in depths; a texel covers that part of its sector which is not sky.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: pyramid (one a level), obscurance.
 #include <algorithm>
@@ -17,6 +17,9 @@ const Parameter kParameters[] = {
     {"directions", "", 4, 64, 16, true, {}, "Directions on the screen, K. Cost grows with them. Too few: bands."},
     {"factor", "", 1.1f, 3, 1.5f, false, {},
         "Length of each step relative to the one before. Larger costs less; too large: small distant occluders are missed."},
+    {"nearest", "px", 0, 100, 0, false, {},
+        "Samples nearer than this are left out: the far field alone, to compare with far_field without its near field, which begins at 1.5 "
+        "intervals."},
     {"thickness", "m", 0, 100, 0, false, {},
         "Thickness of surfaces; 0: endless. Above 0 a texel of the pyramid is the nearest depth instead of the mean, from one level. Too "
         "low: light leaks through solid objects."},
@@ -39,15 +42,11 @@ public:
     static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind) {
         auto result = std::make_unique<Mipmap>();
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
-        const struct {
-            const char* name;
-            gpu::Program* program;
-        } programs[] = {{"ao/mipmap/base.comp", &result->m_base}, {"ao/mipmap/reduce.comp", &result->m_reduce}};
-        for (const auto& [name, program] : programs)
-            if (gpu::Program::compute(device, shaders, name, {}, *program) != gpu::Status::ok) return nullptr;
+        if (gpu::Program::compute(device, shaders, "ao/mipmap/base.comp", {}, result->m_base) != gpu::Status::ok) return nullptr;
         for (uint32_t thin = 0; thin < 2; ++thin)
-            if (gpu::Program::compute(device, shaders, "ao/mipmap/obscurance.comp", {{0, thin}}, result->m_obscurance[thin]) !=
-                gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders, "ao/mipmap/reduce.comp", {{0, thin}}, result->m_reduce[thin]) != gpu::Status::ok ||
+                gpu::Program::compute(device, shaders, "ao/mipmap/obscurance.comp", {{0, thin}}, result->m_obscurance[thin]) !=
+                    gpu::Status::ok)
                 return nullptr;
         return result;
     }
@@ -56,18 +55,19 @@ public:
         const shared::View& view = inputs.view;
         uint32_t mips = 1;
         while (std::max(view.size.x, view.size.y) >> mips) ++mips;
-        const graph::ImageId pyramid = graph.image("mipmap.pyramid", {VK_FORMAT_R32_SFLOAT, view.size.x, view.size.y, 1, mips});
-        graph.pass("mipmap.base", m_base).read(inputs.depth).writeMip(pyramid, 0).dispatch(view.size.x, view.size.y);
+        const graph::ImageId pyramid = graph.image("mipmap.pyramid", {VK_FORMAT_R32G32_SFLOAT, view.size.x, view.size.y, 1, mips});
+        graph.pass("mipmap.base", m_base).read(inputs.viewBlock).read(inputs.depth).writeMip(pyramid, 0).dispatch(view.size.x, view.size.y);
         const uint32_t nearest = values["thickness"] > 0.0f;
         for (uint32_t mip = 1; mip < mips; ++mip)
-            graph.pass("mipmap.reduce", m_reduce)
+            graph.pass("mipmap.reduce", m_reduce[nearest])
                 .readMip(pyramid, mip - 1)
                 .writeMip(pyramid, mip)
-                .constants(shared::MipmapReduce{nearest})
                 .dispatch(std::max(view.size.x >> mip, 1u), std::max(view.size.y >> mip, 1u));
 
+        float at = 1.0f, step = 1.0f;
+        while (at < values["nearest"]) at += step *= values["factor"];
         const shared::MipmapObscurance constants{
-            values.count("directions"), values["factor"], inputs.falloffDesc.length, values["thickness"], values["jitter"]};
+            values.count("directions"), values["factor"], inputs.falloffDesc.length, values["thickness"], values["jitter"], at, step};
         const graph::ImageId table = m_table.add(graph, inputs, "mipmap.table");
         const graph::ImageId visibility = graph.image("mipmap.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
         graph.pass("mipmap.obscurance", m_obscurance[nearest])
@@ -87,7 +87,7 @@ public:
 
 private:
     FalloffTable m_table;
-    gpu::Program m_base, m_reduce, m_obscurance[2];  // endless, thin
+    gpu::Program m_base, m_reduce[2], m_obscurance[2];  // endless, thin
 };
 
 }  // namespace
