@@ -90,4 +90,11 @@ Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason
     return Status::ok;
 }
 
+uint32_t volumeRaySteps(const shared::Volume& volume, float reach, float stride, uint32_t octave) {
+    const float widest = std::ldexp(1.0f, int(volume.levels) - 1), octaveCells = std::ldexp(stride, int(octave));
+    const float cells = std::min(reach / volume.centre.w, 3.5f * volume.halfSide * widest);
+    const int level = std::clamp(cells < 2.0f * octaveCells ? 0 : std::ilogb(cells / octaveCells), 0, int(volume.levels) - 1);
+    return (uint32_t(level) << octave) + uint32_t(std::ceil(std::ldexp(cells / stride, -level)));
+}
+
 }  // namespace obscura::ao

@@ -248,7 +248,7 @@ void Resting::startBuild(float time) {
     for (const auto& [id, member] : m_members) bricks += member.bricks.size();
     while (!m_queue.empty() && triangles < kBuiltTogether) {
         const Member& member = m_members.at(m_queue.front());
-        m_builds.push_back({m_queue.front(), member.instance, member.triangles, {}, false, {}});
+        m_builds.push_back({m_queue.front(), member.instance, member.triangles, {}, false, {}, {}});
         triangles += member.triangles;
         m_queue.pop_front();
     }
@@ -263,7 +263,7 @@ void Resting::startBuild(float time) {
                 return;
             } catch (const std::exception& error) {
                 job.bricks.clear();
-                job.lines.push_back(error.what());
+                job.refusal = error.what();
             }
         }
     });
@@ -273,6 +273,7 @@ void Resting::startBuild(float time) {
 void Resting::collectBuilds() {
     for (Build& build : m_builds) {
         for (const std::string& line : build.lines) m_options.say(line);
+        if (!build.refusal.empty() && m_refused++ == 0) m_refusal = build.refusal;
         const auto found = m_members.find(build.id);
         // Dropped, or replaced and queued again, while it was built.
         if (found == m_members.end() || found->second.built || !found->second.matches(build.instance)) continue;
@@ -290,6 +291,10 @@ void Resting::collectBuilds() {
         m_merging.push_back(build.id);
     }
     m_builds.clear();
+    if (m_queue.empty() && m_refused > 0) {
+        m_options.say(m_refused == 1 ? m_refusal : fmt::format("{} ({} objects are skipped)", m_refusal, m_refused));
+        m_refused = 0;
+    }
 }
 
 // Merges at most `most` bricks. True if there are more.

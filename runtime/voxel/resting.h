@@ -75,6 +75,7 @@ private:
         BrickSet bricks;
         bool fromCache = false;
         std::vector<std::string> lines;
+        std::string refusal;  // why it has no bricks
     };
     bool isNewWorld(const scene::World& world) const;
     void restart(const scene::World& world, float time);
@@ -95,6 +96,8 @@ private:
     std::vector<Sparse> m_levels;
     std::deque<uint32_t> m_queue, m_merging;  // members to be built, and to be merged
     std::chrono::steady_clock::time_point m_begun;
+    std::string m_refusal;  // the first since the last log line
+    size_t m_refused = 0;
     RestingFacts m_facts;  // without cells, bricks and triangles
     // Owned by m_builder while it runs.
     std::vector<Build> m_builds;

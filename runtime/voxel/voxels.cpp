@@ -191,7 +191,7 @@ const Change& Voxels::update(const scene::World& world, float time, const glm::v
         while (!impl.worker.done(kProgressInterval)) impl.reportProgress();
         impl.reportProgress();
         impl.collect();
-    } else if (impl.worker.done(kMaxWait)) {
+    } else if (impl.worker.done(impl.progress < 1.0f ? std::chrono::microseconds(0) : kMaxWait)) {  // a build takes every core
         impl.reportProgress();
         impl.collect();
         post();

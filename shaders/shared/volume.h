@@ -48,8 +48,8 @@ float hitWeight(Volume v, vec3 place) {
 uint wordOf(Volume v, uvec3 cell, uint level) {
     uvec3 p = (cell + (v.anchor.xyz >> level)) & (v.anchor.w - 1u);
     uvec3 brick = p >> 3;
-    uint side = v.anchor.w >> 3;
-    return (((((level * side + brick.x) * side + brick.y) * side + brick.z) << 4) | ((p.x & 7u) << 1) | ((p.y >> 2) & 1u));
+    uint side = uint(findMSB(v.anchor.w)) - 3u;  // its binary logarithm, in bricks
+    return (((level << side | brick.x) << side | brick.y) << side | brick.z) << 4 | (p.x & 7u) << 1 | (p.y >> 2 & 1u);
 }
 uint bitOf(Volume v, uvec3 cell, uint level) {
     uvec2 p = cell.yz + (v.anchor.yz >> level);

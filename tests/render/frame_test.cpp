@@ -241,7 +241,7 @@ TEST_F(Frame, voxelsAreUploadedInCulledFrames) {
         device().nextFrame();
         graph.begin();
         ao::Volume volume;
-        const graph::BufferId bits = voxels.add(graph, {world, 0.0f, camera, {}, {}, true}, {}, volume);
+        const graph::BufferId bits = voxels.add(graph, {world, 0.0f, camera, {}, {}, true}, {.cellSize = 0.1f}, volume);
         ASSERT_TRUE(bool(bits));
         bytes = uint64_t(volume.cells) * volume.cells * volume.cells / 8;  // of level 0
         if (isRead) {

@@ -47,13 +47,13 @@ bool receive(View view, ivec2 p, int every, out vec3 here, out vec3 n) {
     return !isSky(view, z);
 }
 
-// Cell of a world-fixed lattice that contains a surface point; a lattice cell has 2^size volume cells a side. The point is offset along the
-// normal, because floors and walls are often on cell boundaries, where rounding would make noise flicker. The anchor is added in integers,
-// which keeps precision far from the world's origin.
-const float kOffSurface = 0.31;  // lattice cells
+// Cell of a world-fixed lattice that contains a surface point; a lattice cell has 1.25 x 2^size volume cells a side, so that both do not
+// repeat together. The point is offset along the normal, because floors and walls are often on cell boundaries, where rounding would make
+// noise flicker. The anchor is added in integers, which keeps precision far from the world's origin.
+const float kOffSurface = 0.31, kLatticeSide = 1.25, kLatticePeriod = 1024.0;
 ivec3 latticeCell(Volume v, vec3 place, vec3 normal, uint size) {
-    vec3 inLattice = ldexp(place + vec3(v.anchor.xyz & 1023u), ivec3(-int(size))) + kOffSurface * normal;
-    return ivec3(floor(inLattice)) & int(1023u >> size);
+    vec3 inWorld = mod(place + vec3(v.anchor.xyz & 1023u), kLatticePeriod);
+    return ivec3(ldexp(inWorld, ivec3(-int(size))) / kLatticeSide + kOffSurface * normal);
 }
 // The size of lattice cells at a receiver: cells of its level, and never below `pixels` px of the image, where noise would flicker.
 uint latticeSize(View view, Volume v, uint level, vec3 here, float pixels) {

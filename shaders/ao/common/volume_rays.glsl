@@ -13,7 +13,7 @@ struct VolumeRays {  // of a receiver
     uint above;      // levels above it that steps may read
     float stride;    // cells of the receiver's level, of the first steps
     uint octave;
-    uint count;      // steps to the reach
+    uint count;      // steps to the reach; volumeRaySteps() of runtime/ao/view.h is the most of them
     float metres;    // per cell of the receiver's level
     vec3 receiver;   // in cells of the receiver's level
     vec3 lift;       // cells of any level: how far above the surface samples are taken. Larger cells end higher above a plane

@@ -7,7 +7,7 @@ OBSCURA_SHARED_BEGIN
 struct HybridTrace {  // trace.comp
     FalloffBlock falloff;
     uint rays;
-    uint steps;            // equal ones in one level; 0: steps of `stride` that grow with the distance
+    uint steps;            // most steps of a ray; that many if they are equal
     uint scale;            // image pixels per map pixel, each way
     float cone;            // cosine of the cone's half angle
     float offset;          // of rays' origin along the normal, cells
@@ -16,8 +16,9 @@ struct HybridTrace {  // trace.comp
     uint side;             // of the interleaving tile, map pixels; 1: not interleaved
     float stride;          // longest step, cells of its level
     uint octave;           // log2 of the number of steps an octave
+    uint equal;            // 1: equal steps in one level
 };
-OBSCURA_SHARED_SIZE(HybridTrace, 52);
+OBSCURA_SHARED_SIZE(HybridTrace, 56);
 
 OBSCURA_SHARED_END
 #endif

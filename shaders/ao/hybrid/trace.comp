@@ -19,7 +19,7 @@ void main() {
     Volume volume = volumeBlock;
     FalloffBlock rho = constants.falloff;
     openVolume();
-    uint rayCount = constants.rays;
+    uint rayCount = constants.rays, stepCount = constants.steps;
     float coneCosine = constants.cone, jitterOfSteps = constants.jitter;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(map)))) return;
@@ -28,7 +28,8 @@ void main() {
 
     // From here on all positions are in cells, so that a step is one vector addition.
     vec3 normal = cellsAlong(volume, n) * volume.centre.w, receiver = cellOf(volume, here);
-    VolumeRays rays = volumeRays(volume, receiver, normal, rho.reach, constants.offset, constants.stride, constants.octave, constants.steps);
+    VolumeRays rays = volumeRays(volume, receiver, normal, rho.reach, constants.offset, constants.stride, constants.octave,
+        constants.equal * constants.steps);
     // Noise depends on the place in the world, not on the pixel, so it does not move with the camera.
     uint grain = latticeSize(view, volume, rays.level, here, constants.grain);
     vec3 xi = fract(cellNoise(latticeCell(volume, receiver, normal, grain)) + frameShift(view));
@@ -54,9 +55,10 @@ void main() {
         if (outside) nearest = entryOf(volume, rays, ray);
         // Back to front: the last hit is the nearest.
         uint hit = rays.count;
-        for (uint k = rays.count; k-- > 0u;) {
-            VolumeStep step = stepOf(rays, k, first);
-            hit = occupiedAt(volume, placeOf(rays, step, ray), step.level) && step.t >= nearest ? k : hit;
+        for (uint k = 1u; k <= stepCount; ++k) {
+            uint j = stepCount - k;
+            VolumeStep step = stepOf(rays, j, first);
+            if (j < rays.count) hit = occupiedAt(volume, placeOf(rays, step, ray), step.level) && step.t >= nearest ? j : hit;
         }
         // Distance from the receiver, not from the raised origin, as to a surface that faces the ray.
         VolumeStep step = stepOf(rays, hit, first);

@@ -15,8 +15,9 @@ struct OffscreenTrace {  // trace.comp
     float reach;           // of Blocking: metres from the receiver
     float thickness;       // of Blocking: metres behind the visible surface
     uint octave;           // log2 of the number of steps an octave
+    uint steps;            // most steps of a ray
 };
-OBSCURA_SHARED_SIZE(OffscreenTrace, 48);
+OBSCURA_SHARED_SIZE(OffscreenTrace, 52);
 
 OBSCURA_SHARED_END
 #endif

@@ -33,7 +33,7 @@ void main() {
     Volume volume = volumeBlock;
     FalloffBlock rho = constants.falloff;
     openVolume();
-    uint rayCount = constants.rays;
+    uint rayCount = constants.rays, stepCount = constants.steps;
     float reach2 = constants.reach * constants.reach;
     bool countsHidden = constants.hidden != 0u;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
@@ -69,8 +69,10 @@ void main() {
         float entry = outside ? entryOf(volume, rays, ray) : 0.0;
         // Back to front: the last hit is the nearest.
         uint hit = rays.count;
-        for (uint k = rays.count; k-- > 0u;) {
-            VolumeStep step = stepOf(rays, k, shift);
+        for (uint k = 1u; k <= stepCount; ++k) {
+            uint j = stepCount - k;
+            if (j >= rays.count) continue;
+            VolumeStep step = stepOf(rays, j, shift);
             vec3 q = start + rayPixels * step.t + upPixels * (constants.offset * step.grow);
             float slackCells = kSlackCells * metres * step.grow;
             ivec2 texel;
@@ -93,7 +95,7 @@ void main() {
 #endif
             bool counts = occupiedAt(volume, placeOf(rays, step, ray), step.level) && (!inside || countsHidden && isHidden) &&
                 step.t >= entry;
-            hit = ends ? rays.count : counts ? k : hit;
+            hit = ends ? rays.count : counts ? j : hit;
         }
         // Distance from the receiver, which is below the origin: between that to an occluder on its surface (no offset) and that to one
         // that faces the ray (offset * c).

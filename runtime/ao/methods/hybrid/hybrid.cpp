@@ -15,11 +15,12 @@
 #include "ao/hybrid/constants.h"
 #include "ao/interleave.h"
 #include "ao/upsample.h"
+#include "ao/view.h"
 
 namespace obscura::ao::hybrid {
 namespace {
 
-constexpr float kGrain = 2.0f;  // px, least side of a noise cell
+constexpr float kGrain = 4.0f;  // px, least side of a noise cell
 
 const Parameter kParameters[] = {
     {"rays", "", 8, 128, 21, true, {}, "Rays per pixel of the map. Cost grows with rays x steps. Too few: blotches after upsampling."},
@@ -85,9 +86,11 @@ public:
         const uint32_t width = (visible.x + scale - 1) / scale, height = (visible.y + scale - 1) / scale;
         graph::ImageId map = graph.image("hybrid.map", {VK_FORMAT_R16_SFLOAT, width, height});
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
-        const shared::HybridTrace trace{inputs.falloff, sharedOut(values.count("rays"), side), values.count("steps"), scale,
-            std::cos(values["spread"] * 1.5707963f), values["offset"], values["jitter"], kGrain, side, values["stride"],
-            values.count("octave")};
+        const uint32_t equal = values.count("steps"), octave = values.count("octave");
+        const uint32_t steps = equal ? equal : volumeRaySteps(inputs.volume.volume, inputs.falloff.reach, values["stride"], octave);
+        const shared::HybridTrace trace{inputs.falloff, sharedOut(values.count("rays"), side), steps, scale,
+            std::cos(values["spread"] * 1.5707963f), values["offset"], values["jitter"], kGrain, side, values["stride"], octave,
+            equal ? 1u : 0u};
         graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)])
             .read(inputs.viewBlock)
             .read(inputs.volume.block)
