@@ -149,12 +149,16 @@ void voxelPanel(Session& session) {
     int structure = int(voxels.structure);
     if (ImGui::Combo("voxel structure", &structure, app::kStructureNames, int(std::size(app::kStructureNames))))
         voxels.structure = ao::VolumeStructure(structure);
-    tip("dense: a cube of bits around the camera. nanovdb: the whole world as a sparse grid, built by OpenVDB; slower to trace.");
+    tip("dense: cubes of bits around the camera. nanovdb: the same cells as a sparse grid, built by OpenVDB: less memory, slower to "
+        "trace.");
     if (ImGui::Combo("voxel shell", &shell, app::kShellNames, int(std::size(app::kShellNames)))) voxels.shell = voxel::Shell(shell);
     tip("conservative: every cell that a surface touches. thin: the fewest cells that no path across cell faces passes; short rays miss "
         "some surfaces.");
-    if (ImGui::Combo("voxel window", &side, "64\000128\000256\000512\0")) voxels.cells = 64u << side;
-    tip("Cells per side of the voxel cube around the camera. Memory grows with its cube; at few cells distant occluders are missing.");
+    if (ImGui::Combo("voxels per side", &side, "64\000128\000256\000512\0")) voxels.cells = 64u << side;
+    tip("Cells per side of each level of voxels. Memory grows with its cube; few are large cells, which darken open places.");
+    int levels = int(voxels.levels);
+    if (ImGui::SliderInt("voxel levels", &levels, 1, int(voxel::kMostLevels))) voxels.levels = uint32_t(levels);
+    tip("Each level is twice as wide as the one before, with cells twice as large. Nothing beyond the last one occludes.");
 }
 
 // What of the scene's animations plays.

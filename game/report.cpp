@@ -77,15 +77,16 @@ std::string voxelFacts(const voxel::Voxels& voxels, const app::Statistics& times
         return any ? fmt::format("{:.2f} ms", sum) : std::string("none");
     };
     const std::string window = voxels.options().nano ? fmt::format("NanoVDB grid of {:.2f} MiB on the GPU", double(v.windowBytes) * mebi)
-                                                     : fmt::format("window of {} cells a side, {:.1f} MiB on the GPU",
-                                                           voxels.options().cells, double(v.windowBytes) * mebi);
+                                                     : fmt::format("{} levels of {} cells a side, {:.1f} MiB on the GPU",
+                                                           voxels.options().levels, voxels.options().cells, double(v.windowBytes) * mebi);
     if (!voxels.options().bits)
         return fmt::format("voxels: {}, voxelized there every frame\nclear {}, rasterise {}, trace {}", window, spent("voxels.clear"),
             spent("voxels.rasterise"), spent(".trace"));
-    const std::string rest = v.progress < 1.0f ? fmt::format("building, {:.0f} %", 100.0f * v.progress)
-                                               : fmt::format("{} static cells in {:.2f} MiB of OpenVDB, {} in {:.0f} ms", v.resting.cells,
-                                                     double(v.resting.bytes) * mebi, v.resting.fromCache ? "read from the cache" : "built",
-                                                     v.resting.milliseconds);
+    const std::string rest =
+        v.progress < 1.0f
+            ? fmt::format("building, {:.0f} %", 100.0f * v.progress)
+            : fmt::format("{} static cells in {:.2f} MiB of OpenVDB, {} in {:.0f} ms", v.resting.cells, double(v.resting.bytes) * mebi,
+                  v.resting.fromCache > 0 && v.resting.rasterised == 0 ? "read from the cache" : "built", v.resting.milliseconds);
     return fmt::format(
         "voxels: {}\n{} moving objects of {} cells in {:.2f} MiB, {} rebuilt; worker {:.2f} ms, waited {:.2f} (worst {:.2f}), {} late\n{}, "
         "{:.1f} KiB in the last upload\n"

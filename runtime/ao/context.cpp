@@ -56,7 +56,7 @@ graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame
     if (!made) return {};
     if (const Volume& v = frame.volume; v.buffer)
         sources.volume = graph.import("volume bits",
-            {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.cells) * v.cells * v.cells / 8 : v.bytes});
+            {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.levels) * v.cells * v.cells * v.cells / 8 : v.bytes});
     return context.library->add(graph, frame, sources, context.falloff, *context.values).visibility;
 }
 

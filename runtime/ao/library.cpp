@@ -63,7 +63,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
     const bool discard = frame.cut || m_last != &values.info();
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
-    if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure};
+    if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure, volume};
     const LayerMode use = layerModeOf(values);
     if (use != LayerMode::none) inputs.layers.thickness = sources.layers.thickness;
     if (use > LayerMode::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;

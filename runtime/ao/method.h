@@ -19,8 +19,9 @@ namespace obscura::ao {
 // Occupied cells of the world, laid out as in shared/volume.h. Passes that trace them have a program for each structure.
 struct VolumeInput {
     graph::BufferId bits;   // storage buffer
-    graph::BufferId block;  // Volume as a uniform buffer
+    graph::BufferId block;  // `volume` as a uniform buffer
     VolumeStructure structure = VolumeStructure::dense;
+    shared::Volume volume{};
     explicit operator bool() const { return bool(bits); }
 };
 

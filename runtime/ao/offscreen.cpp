@@ -4,13 +4,15 @@
 #include <utility>
 
 #include "ao/offscreen/constants.h"
+#include "ao/view.h"
 
 namespace obscura::ao {
 namespace {
 
 constexpr uint32_t kScale = 2;      // a map of a quarter of the pixels
 constexpr float kOffset = 2.0f;     // cells; the cells that touch a plane end sqrt(3) above it
-constexpr float kGrain = 1.25f;     // cells: finer noise flickers as the camera moves, coarser shows as blotches
+constexpr float kGrain = 2.0f;      // px: finer noise flickers as the camera moves
+constexpr uint32_t kOctave = 3;     // 8 steps an octave
 constexpr float kWindow = 16.0f;    // px
 constexpr float kRange = 0.25f;     // of the falloff's reach
 constexpr float kFarthest = 1e18f;  // its square fits in a float
@@ -45,7 +47,8 @@ graph::ImageId OffScreenPass::add(
     const graph::ImageId map = graph.image("offscreen.map", {VK_FORMAT_R16_SFLOAT, width, height});
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
     const shared::OffscreenTrace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u,
-        kOffset, kGrain, std::min(blocking.reach, kFarthest), blocking.thickness};
+        kOffset, kGrain, std::min(blocking.reach, kFarthest), blocking.thickness, kOctave,
+        volumeRaySteps(inputs.volume.volume, inputs.falloff.reach, settings.stride, kOctave)};
     const graph::ImageId layers = blocking.sheet >= 0.0f ? m_layerPass.add(graph, inputs, blocking.sheet) : graph::ImageId{};
     graph::Pass& pass = graph.pass("offscreen.trace", (layers ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
     pass.read(inputs.viewBlock)

@@ -61,21 +61,41 @@ Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason
         reason = why;
         return Status::invalid;
     };
-    const uint32_t cells = volume.cells;
-    const bool dense = volume.structure == VolumeStructure::dense;
-    if (dense && (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0))
+    const uint32_t cells = volume.cells, levels = volume.levels;
+    const bool hasEdge = volume.structure == VolumeStructure::dense || cells > 0;
+    if (hasEdge && (cells < 8 || cells > 1024 || (cells & (cells - 1)) != 0))
         return fail("Frame::volume.cells is not a power of two from 8 to 1024");
+    if (levels < 1 || levels > 8) return fail("Frame::volume.levels is not from 1 to 8");
+    if (levels > 1 && cells < 32) return fail("Frame::volume.levels above 1 need 32 cells a side or more");
     const float* m = volume.cellFromEye;
     for (int i = 0; i < 16; ++i)
         if (!std::isfinite(m[i])) return fail("Frame::volume.cellFromEye holds a value that is not finite");
     const float scale = std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
     if (!(scale > 0.0f)) return fail("Frame::volume.cellFromEye has scale 0");
-    for (int row = 0; row < 3; ++row) block.rows[row] = {m[row], m[4 + row], m[8 + row], m[12 + row]};
-    const uint32_t mask = dense ? cells - 1 : ~0u;
-    block.shift = {
-        uint32_t(volume.origin[0]) & mask, uint32_t(volume.origin[1]) & mask, uint32_t(volume.origin[2]) & mask, dense ? cells : 0};
-    block.anchor = {0.0f, 0.0f, 0.0f, 1.0f / scale};
+    // Places are counted from the lowest cell of all levels, so that those inside are not negative.
+    const int64_t half = cells / 2, widest = int64_t(1) << (levels - 1), below = levels > 1 ? (half + 8) * widest : half;
+    float fromAnchor[3];
+    uint32_t anchor[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const int64_t origin = volume.origin[axis], middle = origin + half;
+        const int64_t lowest = levels > 1 ? (middle - below) & ~(widest - 1) : origin;
+        anchor[axis] = uint32_t(lowest);
+        fromAnchor[axis] = float(origin - lowest);
+    }
+    for (int row = 0; row < 3; ++row) block.rows[row] = {m[row], m[4 + row], m[8 + row], m[12 + row] + fromAnchor[row]};
+    block.anchor = {anchor[0], anchor[1], anchor[2], cells};
+    block.centre = {fromAnchor[0] + float(half), fromAnchor[1] + float(half), fromAnchor[2] + float(half), 1.0f / scale};
+    block.halfSide = !hasEdge ? 1e30f : levels > 1 ? float(half - 8) : float(half);
+    block.fade = levels > 1 ? 4.0f / (block.halfSide * float(widest)) : 1e30f;
+    block.levels = levels;
     return Status::ok;
+}
+
+uint32_t volumeRaySteps(const shared::Volume& volume, float reach, float stride, uint32_t octave) {
+    const float widest = std::ldexp(1.0f, int(volume.levels) - 1), octaveCells = std::ldexp(stride, int(octave));
+    const float cells = std::min(reach / volume.centre.w, 3.5f * volume.halfSide * widest);
+    const int level = std::clamp(cells < 2.0f * octaveCells ? 0 : std::ilogb(cells / octaveCells), 0, int(volume.levels) - 1);
+    return (uint32_t(level) << octave) + uint32_t(std::ceil(std::ldexp(cells / stride, -level)));
 }
 
 }  // namespace obscura::ao

@@ -38,12 +38,20 @@ std::function<void(float)> bar() {
 
 void addVoxelArguments(CLI::App& cli, render::Voxelization& into, const std::string& group) {
     cli.add_option("--voxels", into.cells,
-           "Cells per side of the voxel window around the camera, for methods that trace voxels; 2 MiB at 256, 8 times that at 512")
+           "Cells per side of each level of voxels around the camera, for methods that trace voxels; 2 MiB a level at 256, 8 times that at "
+           "512")
         ->group(group)
         ->check(CLI::IsMember({64u, 128u, 256u, 512u}))
         ->capture_default_str();
+    cli.add_option("--voxel-levels", into.levels,
+           "Levels of voxels, each twice as wide as the one before, with cells twice as large. Nothing beyond the last one occludes")
+        ->group(group)
+        ->check(CLI::Range(1u, voxel::kMostLevels))
+        ->capture_default_str();
     cli.add_option("--voxel-size", into.cellSize,
-           "Side of a cell in metres; 0: the scene's longest side fills the window, at most 0.14. Larger cells darken open places")
+           "Side of the finest cells in metres; 0: 18 m / --voxels, less in scenes that fit into the finest level. Larger cells darken "
+           "open "
+           "places")
         ->group(group)
         ->check(CLI::Range(0.0f, 1000.0f))
         ->capture_default_str();
@@ -51,7 +59,7 @@ void addVoxelArguments(CLI::App& cli, render::Voxelization& into, const std::str
         "openvdb: static geometry once (cached on disk), objects only when they move, on the CPU; gpu: everything, every frame")
         ->group(group);
     addNamed(cli, "--voxel-structure", into.structure, kStructureNames,
-        "dense: one bit per cell in a window around the camera; nanovdb: the whole world as a sparse grid, slower to trace")
+        "dense: one bit per cell; nanovdb: the same cells as a sparse grid, which takes less memory and is slower to trace")
         ->group(group);
     addNamed(cli, "--voxel-shell", into.shell, kShellNames,
         "conservative: every cell that a triangle touches; thin: only enough cells that no path over cell faces crosses a surface")

@@ -153,11 +153,12 @@ graph::ImageId Views::voxels(graph::Graph& graph, graph::BufferId bits, const ao
     struct {
         int32_t axis;
         float layer, shown;
-    } constants{-1, 0.0f, float(volume.cells)};
+    } constants{-1, 0.0f, float(volume.levels > 1 ? 2 * volume.cells : volume.cells)};
     if (slice) {
         constants.axis = std::clamp(slice->axis, 0, 2);
         const int axis = constants.axis;
-        constants.layer = volume.cellFromEye[12 + axis] + (slice->at ? (*slice->at - eye[axis]) / block.anchor.w : 0.0f);
+        const float eyeAt = axis == 0 ? block.rows[0].w : axis == 1 ? block.rows[1].w : block.rows[2].w;
+        constants.layer = eyeAt + (slice->at ? (*slice->at - eye[axis]) / block.centre.w : 0.0f);
     }
     // Created at first use: drivers compile the NanoVDB shader longer than all others together.
     const bool tree = volume.structure != ao::VolumeStructure::dense;

@@ -1,21 +1,34 @@
 #include "render/voxel_raster.h"
 
+#include <cmath>
+
 #include "voxel/job.h"
+#include "voxel/window.h"
 
 namespace obscura::render {
 namespace {
 
-// Rows of the matrix from object space to cells from the window's lowest corner. Double precision until the origin is subtracted.
-void rowsOf(const glm::mat4& world, const voxel::Change& where, shared::vec4 rows[3]) {
+// A level's window.
+struct Level {
+    uint32_t level;
+    double cellSize;    // metres, of level 0
+    glm::ivec3 corner;  // lowest cell, of the level
+    uint32_t cells;
+};
+
+// Rows of the matrix from object space to cells of the level from the window's lowest corner. Double precision until that is subtracted.
+void rowsOf(const glm::mat4& world, const Level& where, shared::vec4 rows[3]) {
+    const double shrink = std::exp2(-double(where.level));
     for (int r = 0; r < 3; ++r) {
-        const auto cells = [&](int column) { return double(world[column][r]) / where.cellSize; };
-        rows[r] = {float(cells(0)), float(cells(1)), float(cells(2)), float(cells(3) + 0.5 - double(where.origin[r]))};
+        const auto cells = [&](int column) { return double(world[column][r]) / where.cellSize * shrink; };
+        rows[r] = {float(cells(0)), float(cells(1)), float(cells(2)), float(cells(3) + 0.5 * shrink - double(where.corner[r]))};
     }
 }
 
-bool intersects(const scene::Bounds& box, const voxel::Change& where) {
+bool intersects(const scene::Bounds& box, const Level& where) {
+    const double cell = where.cellSize * std::exp2(double(where.level));
     for (int k = 0; k < 3; ++k) {
-        const double low = (double(where.origin[k]) - 1.0) * where.cellSize, high = low + (double(where.cells) + 1.0) * where.cellSize;
+        const double low = (double(where.corner[k]) - 1.0) * cell, high = low + (double(where.cells) + 1.0) * cell;
         if (double(box.max[k]) < low || double(box.min[k]) > high) return false;
     }
     return true;  // also for a box with NaN: some of its triangles can be finite
@@ -46,22 +59,27 @@ graph::BufferId VoxelRaster::add(graph::Graph& graph, std::span<const Drawable> 
     };
     std::vector<Draw> draws;
     const uint32_t mask = where.cells - 1;
-    for (const Drawable& drawable : drawables) {
-        const scene::AlphaMode mode = drawable.primitive->material->alphaMode;
-        if (mode == scene::AlphaMode::blend || (mode == scene::AlphaMode::mask && !masked)) continue;
-        if (!intersects(drawable.bounds, where) || !bindable(*drawable.model)) continue;
-        const bool isPosed = drawable.posed != kNotPosed;
-        shared::VoxelJob job{};
-        rowsOf(drawable.world, where, job.rows);
-        job.shift = {uint32_t(where.origin.x) & mask, uint32_t(where.origin.y) & mask, uint32_t(where.origin.z) & mask, where.cells};
-        job.triangles = drawable.primitive->indexCount / 3;
-        job.indices = uint32_t(drawable.primitive->indices / sizeof(uint32_t));
-        job.positions = isPosed ? drawable.posed * 3 : uint32_t(drawable.primitive->positions / sizeof(float));
-        job.posed = isPosed ? 1 : 0;
-        job.thin = shell == voxel::Shell::thin ? 1 : 0;
-        draws.push_back({drawable.model, job});
+    for (uint32_t k = 0; k < where.levels; ++k) {
+        const glm::ivec3 corner = voxel::windowOrigin(where.cells, k, where.centreBrick()) * voxel::kBrickSide;
+        const Level level{k, where.cellSize, corner, where.cells};
+        for (const Drawable& drawable : drawables) {
+            const scene::AlphaMode mode = drawable.primitive->material->alphaMode;
+            if (mode == scene::AlphaMode::blend || (mode == scene::AlphaMode::mask && !masked)) continue;
+            if (!intersects(drawable.bounds, level) || !bindable(*drawable.model)) continue;
+            const bool isPosed = drawable.posed != kNotPosed;
+            shared::VoxelJob job{};
+            rowsOf(drawable.world, level, job.rows);
+            job.corner = {uint32_t(corner.x) & mask, uint32_t(corner.y) & mask, uint32_t(corner.z) & mask, where.cells};
+            job.triangles = drawable.primitive->indexCount / 3;
+            job.indices = uint32_t(drawable.primitive->indices / sizeof(uint32_t));
+            job.positions = isPosed ? drawable.posed * 3 : uint32_t(drawable.primitive->positions / sizeof(float));
+            job.posed = isPosed ? 1 : 0;
+            job.thin = shell == voxel::Shell::thin ? 1 : 0;
+            job.firstWord = uint32_t(where.bytes() / where.levels / sizeof(uint32_t)) * k;
+            draws.push_back({drawable.model, job});
+        }
     }
-    const graph::BufferId bits = graph.buffer("voxels", uint64_t(where.cells) * where.cells * where.cells / 8);
+    const graph::BufferId bits = graph.buffer("voxels", where.bytes());
     graph.pass("voxels.clear").use(bits, graph::Access::transferWrite).record([bits](const graph::PassContext& c) {
         const graph::ExternalBuffer buffer = c.buffer(bits);
         c.device.vk().CmdFillBuffer(c.cmd, buffer.buffer, buffer.offset, buffer.bytes, 0);

@@ -13,7 +13,7 @@ namespace obscura::render {
 class VoxelRaster {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelRaster& out);
-    // Rasterises all drawables in the window except blended ones. `where`: the window. `drawables` and `posed` must stay valid until the
+    // Rasterises all drawables in the windows of all levels except blended ones. `where`: the windows. `drawables` and `posed` must stay valid until the
     // graph has been executed.
     graph::BufferId add(graph::Graph& graph, std::span<const Drawable> drawables, const Deform::Posed& posed, const voxel::Change& where,
         bool masked, voxel::Shell shell);

@@ -18,10 +18,22 @@ std::vector<VkBufferCopy> copies(const std::vector<uint32_t>& addresses, uint64_
     return list;
 }
 
+// regions: of `from` to `to`.
+void addCopy(graph::Graph& graph, graph::BufferId from, graph::BufferId to, std::vector<VkBufferCopy> regions) {
+    graph.pass("voxels.upload")
+        .use(from, graph::Access::transferRead)
+        .use(to, graph::Access::transferWrite)
+        .record([from, to, regions = std::move(regions)](const graph::PassContext& c) mutable {
+            const graph::ExternalBuffer source = c.buffer(from), target = c.buffer(to);
+            for (VkBufferCopy& region : regions) region.srcOffset += source.offset;
+            c.device.vk().CmdCopyBuffer(c.cmd, source.buffer, target.buffer, uint32_t(regions.size()), regions.data());
+        });
+}
+
 }  // namespace
 
 graph::BufferId VoxelVolume::upload(graph::Graph& graph, const voxel::Change& change) {
-    const uint64_t bytes = uint64_t(change.cells) * change.cells * change.cells / 8;
+    const uint64_t bytes = change.bytes();
     std::vector<Brick> first;
     if (!m_bits) {  // a new buffer is written completely, empty bricks included
         if (gpu::Buffer::create(graph.device(), bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -35,44 +47,32 @@ graph::BufferId VoxelVolume::upload(graph::Graph& graph, const voxel::Change& ch
     if (sent.empty()) return bits;
     const graph::BufferId staged = graph.upload("voxel bricks", sent.data(), sent.size() * sizeof(Brick));
     std::vector<VkBufferCopy> regions = first.empty() ? copies(change.addresses, 0) : std::vector<VkBufferCopy>{{0, 0, bytes}};
-    graph.pass("voxels.upload")
-        .use(staged, graph::Access::transferRead)
-        .use(bits, graph::Access::transferWrite)
-        .record([staged, bits, regions = std::move(regions)](const graph::PassContext& c) mutable {
-            const graph::ExternalBuffer from = c.buffer(staged), to = c.buffer(bits);
-            for (VkBufferCopy& region : regions) region.srcOffset += from.offset;
-            c.device.vk().CmdCopyBuffer(c.cmd, from.buffer, to.buffer, uint32_t(regions.size()), regions.data());
-        });
+    addCopy(graph, staged, bits, std::move(regions));
     return bits;
 }
 
-// Uploads the whole grid: adding or removing a leaf moves other nodes.
 graph::BufferId VoxelVolume::uploadGrid(graph::Graph& graph, const voxel::Change& change) {
-    const uint64_t bytes = change.grid.size() * sizeof(uint32_t);
-    if (bytes > m_bits.bytes()) {
-        const uint64_t most = graph.device().caps().maxStorageRange, withSpare = std::min(most, bytes + bytes / 4);
+    if (change.gridBytes != m_bits.bytes()) {
         m_bits = {};
-        if (bytes > most) {
+        if (change.gridBytes > graph.device().caps().maxStorageRange) {
             graph.device().log(
                 gpu::Severity::warning, "voxels: the NanoVDB grid exceeds this device's maxStorageBufferRange; use larger cells");
             return {};
         }
-        if (gpu::Buffer::create(graph.device(), withSpare, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        if (gpu::Buffer::create(graph.device(), change.gridBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                 gpu::Memory::device, "voxel grid", m_bits) != gpu::Status::ok)
             return {};
     }
-    if (!m_bits) return {};
     const graph::BufferId grid = graph.import("voxel grid", m_bits, graph::Graph::Shared::written);
-    if (bytes == 0) return grid;
-    const graph::BufferId staged = graph.upload("new voxel grid", change.grid.data(), bytes);
-    graph.pass("voxels.upload")
-        .use(staged, graph::Access::transferRead)
-        .use(grid, graph::Access::transferWrite)
-        .record([staged, grid, bytes](const graph::PassContext& c) {
-            const graph::ExternalBuffer from = c.buffer(staged), to = c.buffer(grid);
-            const VkBufferCopy copy{from.offset, 0, bytes};
-            c.device.vk().CmdCopyBuffer(c.cmd, from.buffer, to.buffer, 1, &copy);
-        });
+    if (change.grid.empty()) return grid;
+    const graph::BufferId staged = graph.upload("voxel grid changes", change.grid.data(), change.grid.size() * sizeof(uint32_t));
+    std::vector<VkBufferCopy> regions;
+    uint64_t source = 0;
+    for (const voxel::NanoGrid::Range& range : change.gridRanges) {
+        regions.push_back({source, range.offset, range.bytes});
+        source += range.bytes;
+    }
+    addCopy(graph, staged, grid, std::move(regions));
     return grid;
 }
 
@@ -81,8 +81,10 @@ graph::BufferId VoxelVolume::add(graph::Graph& graph, const Scene& scene, const 
     const bool grid = how.structure == ao::VolumeStructure::nanovdb, onGpu = how.voxelizer == Voxelizer::gpu && !grid;
     const auto differs = [&](auto Voxelization::* field) { return how.*field != m_how.*field; };
     if (!m_voxels || differs(&Voxelization::voxelizer) || differs(&Voxelization::structure) || differs(&Voxelization::shell) ||
-        differs(&Voxelization::cells) || differs(&Voxelization::cellSize) || differs(&Voxelization::cache) || scene.masked != m_masked) {
+        differs(&Voxelization::cells) || differs(&Voxelization::levels) || differs(&Voxelization::cellSize) ||
+        differs(&Voxelization::cache) || scene.masked != m_masked) {
         m_voxels = std::make_unique<voxel::Voxels>(voxel::Options{.cells = how.cells,
+            .levels = how.levels,
             .cellSize = double(how.cellSize),
             .masked = scene.masked,
             .shell = how.shell,
@@ -95,11 +97,18 @@ graph::BufferId VoxelVolume::add(graph::Graph& graph, const Scene& scene, const 
         m_how = how;
         m_masked = scene.masked;
     }
-    const voxel::Change& change =
-        m_voxels->update(scene.world, scene.time, scene.camera.eye, how.exact ? voxel::Voxels::Wait::exact : voxel::Voxels::Wait::latest);
+    // After frames without voxels, the worker's last result is of long ago.
+    using Wait = voxel::Voxels::Wait;
+    const bool missed = device.frame() != m_frame + 1;
+    m_frame = device.frame();
+    const voxel::Change& change = m_voxels->update(scene.world, scene.time, scene.camera.eye,
+        how.exact ? Wait::exact
+        : missed  ? Wait::current
+                  : Wait::latest);
     if (change.cells == 0) return {};
     volume.structure = how.structure;
     volume.cells = change.cells;
+    volume.levels = change.levels;
     const glm::dmat4 worldFromEye = glm::inverse(glm::dmat4(scene.camera.view()));
     glm::mat4 cellFromEye(1.0f);
     for (int column = 0; column < 4; ++column)

@@ -1,5 +1,5 @@
-// The volume that methods trace, on the GPU. One of: the window of runtime/voxel, uploaded brick by brick as it changes; the same window
-// rasterised on the GPU; a NanoVDB grid of the whole world.
+// The volume that methods trace, on the GPU: levels of voxels around the camera. One of: the windows of runtime/voxel, uploaded brick by
+// brick as they change; the same windows rasterised on the GPU; a NanoVDB grid of the same bricks.
 #pragma once
 
 #include <functional>
@@ -17,10 +17,11 @@ enum class Voxelizer : uint8_t { openvdb, gpu };
 // How the world is voxelized for methods that need a volume.
 struct Voxelization {
     Voxelizer voxelizer = Voxelizer::openvdb;                    // gpu: everything, every frame
-    ao::VolumeStructure structure = ao::VolumeStructure::dense;  // nanovdb: the whole world, always by the CPU
+    ao::VolumeStructure structure = ao::VolumeStructure::dense;  // nanovdb: always by the CPU
     voxel::Shell shell = voxel::Shell::conservative;
-    uint32_t cells = 256;                 // per side of the window: 64, 128, 256 or 512
-    float cellSize = 0.0f;                // metres; 0: the world's longest side fills the window, at most 0.14 m
+    uint32_t cells = 256;                 // per side of each level: 64, 128, 256 or 512
+    uint32_t levels = 5;                  // 1 to voxel::kMostLevels, each twice as wide as the one before
+    float cellSize = 0.0f;                // metres, of level 0; 0: 18 m / cells, less for small worlds
     bool exact = true;                    // each frame waits for its voxels; false: waits at most 1 ms, voxels lag by a frame or more
     std::filesystem::path cache;          // folder of cached static geometry; empty: no cache
     std::function<void(float)> building;  // 0 to 1 while static geometry is built, 1 at its end; from the thread that adds frames
@@ -51,6 +52,7 @@ private:
     graph::BufferId uploadGrid(graph::Graph& graph, const voxel::Change& change);
     std::unique_ptr<voxel::Voxels> m_voxels;
     Voxelization m_how;
+    uint64_t m_frame = 0;  // of the last add()
     bool m_masked = true;
     gpu::Buffer m_bits;  // or the NanoVDB grid
     VoxelRaster m_raster;

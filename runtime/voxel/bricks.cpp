@@ -31,6 +31,19 @@ Brick& Brick::operator|=(const Brick& other) {
     return *this;
 }
 
+void addOctant(const Brick& fine, const glm::ivec3& octant, Brick& coarse) {
+    for (int x = 0; x < kBrickSide / 2; ++x) {
+        uint64_t pairs = fine.words[size_t(2 * x)] | fine.words[size_t(2 * x + 1)];
+        pairs |= pairs >> kBrickSide;                          // neighbours along y, in the even bytes
+        pairs = (pairs | pairs >> 1) & 0x0055005500550055ull;  // and along z, in the even bits
+        pairs = (pairs | pairs >> 1) & 0x0033003300330033ull;  // which become the lowest four bits of a byte
+        pairs = (pairs | pairs >> 2) & 0x000f000f000f000full;
+        uint64_t rows = 0;
+        for (int y = 0; y < kBrickSide / 2; ++y) rows |= (pairs >> 16 * y & 0xf) << kBrickSide * y;
+        coarse.words[size_t(4 * octant.x + x)] |= rows << (kBrickSide * 4 * octant.y + 4 * octant.z);
+    }
+}
+
 uint32_t BrickSet::slotOf(uint64_t key) const {
     const uint32_t mask = uint32_t(m_slots.size()) - 1;
     uint32_t slot = uint32_t(key * 0x9e3779b97f4a7c15ull >> 32) & mask;
@@ -70,6 +83,11 @@ bool BrickSet::test(const glm::ivec3& cell) const {
 
 void BrickSet::merge(const BrickSet& other) {
     for (size_t i = 0; i < other.size(); ++i) at(other.place(i)) |= other[i];
+}
+
+void BrickSet::nextLevel(BrickSet& next) const {
+    next.clear();
+    for (size_t i = 0; i < size(); ++i) addOctant(m_bricks[i], place(i) & 1, next.at(atLevel(place(i), 1)));
 }
 
 void BrickSet::clear() {

@@ -1,6 +1,8 @@
 // Cells and bricks. The centre of cell c is at c * cellSize metres on each axis, as in OpenVDB: a floor at height 0 runs through the middle
 // of a layer of cells and not between two layers. A set cell touches a surface. A brick is 8 x 8 x 8 cells in 64 bytes, with the bit order
 // of an OpenVDB mask leaf, which is also what the GPU reads.
+// Levels: a cell of level k + 1 is the union of eight cells of level k, 2 c to 2 c + 1 on each axis, and is set if any of them is. Level 0
+// has the cells of cellSize metres.
 #pragma once
 
 #include <array>
@@ -28,6 +30,10 @@ struct Brick {
 static_assert(sizeof(Brick) == 64);
 
 inline glm::ivec3 brickOf(const glm::ivec3& cell) { return {cell.x >> 3, cell.y >> 3, cell.z >> 3}; }
+// The cell or brick of a level that contains a cell or brick of level 0.
+inline glm::ivec3 atLevel(const glm::ivec3& place, uint32_t level) { return {place.x >> level, place.y >> level, place.z >> level}; }
+// Sets the cells of a brick of the next level that contain the set cells of its octant; each coordinate of `octant` is 0 or 1.
+void addOctant(const Brick& fine, const glm::ivec3& octant, Brick& coarse);
 
 // A hash map of bricks by place (cell coordinates / 8), in the order of insertion. clear() keeps the memory, so that a set that is refilled
 // every frame does not allocate.
@@ -38,6 +44,7 @@ public:
     void set(const glm::ivec3& cell);
     bool test(const glm::ivec3& cell) const;
     void merge(const BrickSet& other);
+    void nextLevel(BrickSet& next) const;  // `next`: cleared, then the next level of this set
     void clear();
     void swap(BrickSet& other);
 

@@ -21,42 +21,56 @@ void Objects::add(const scene::Instance& instance, std::span<const Part> parts) 
     }
 }
 
-bool Objects::moved(Object& object, const scene::Pose& pose, float time) const {
-    const glm::mat4 matrix = object.instance->placement * pose.world[size_t(object.part.node)];
-    const float own = object.part.deforms ? time + object.instance->timeOffset : 0.0f;
+// Whether the object's bricks must be made again: it has moved, or entered or left the grid's box.
+bool Objects::moved(Object& object, const scene::Pose& pose, float time, const Grid& grid) {
+    const scene::Instance& instance = *object.instance;
+    if (object.fresh) object.bounds = boundsOf(*instance.model, object.part, grid.picked);
+    const scene::Bounds box = boundsOf(instance, object.part, pose, object.bounds);
+    // Comparisons with NaN are false: such an object is inside, and its finite triangles count.
+    const glm::dvec3 low(box.min), high(box.max);
+    const bool outside = box.empty || glm::any(glm::lessThan(high, grid.low)) || glm::any(glm::greaterThan(low, grid.high));
+    const bool crossed = outside != object.outside;
+    object.outside = outside;
+    const glm::mat4 matrix = instance.placement * pose.world[size_t(object.part.node)];
+    const float own = object.part.deforms ? time + instance.timeOffset : 0.0f;
     const bool moved = object.fresh || matrix != object.matrix || own != object.time;
     object.matrix = matrix;
     object.time = own;
     object.fresh = false;
-    return moved;
+    return crossed || (moved && !outside);
 }
 
-void Objects::rasteriseObject(
-    Object& object, const scene::Pose& posed, double cellSize, const Picked& picked, Shell shell, Posed& scratch) {
-    object.before.swap(object.bricks);
-    object.bricks.clear();
-    pose(*object.instance, object.part, posed, picked, scratch);
-    RasterOptions options;
-    options.shell = shell;
-    options.mostBricks = size_t(1) << 18;  // 16 MiB
-    try {
-        const RasterReport report = rasterise(scratch.triangles(), cellSize, object.bricks, options);
-        if (report.notFinite + report.tooFar > 0)
-            object.error = fmt::format("{} of {} triangles are skipped: not finite, or more than 2^23 cells from the origin",
-                report.notFinite + report.tooFar, scratch.indices.size() / 3);
-    } catch (const scene::Error& failure) {
-        object.bricks.clear();
-        object.error = failure.what();
+void Objects::rasteriseObject(Object& object, const scene::Pose& posed, const Grid& grid, Posed& scratch) {
+    object.bricks.resize(grid.levels);
+    BrickSet& bricks = object.bricks[0];
+    object.before.swap(bricks);
+    bricks.clear();
+    object.error.clear();
+    if (!object.outside) {
+        pose(*object.instance, object.part, posed, grid.picked, scratch);
+        RasterOptions options;
+        options.shell = grid.shell;
+        options.mostBricks = size_t(1) << 18;  // 16 MiB
+        try {
+            const RasterReport report = rasterise(scratch.triangles(), grid.cellSize, bricks, options);
+            if (report.notFinite + report.tooFar > 0)
+                object.error = fmt::format("{} of {} triangles are skipped: not finite, or more than 2^23 cells from the origin",
+                    report.notFinite + report.tooFar, scratch.indices.size() / 3);
+        } catch (const scene::Error& failure) {
+            bricks.clear();
+            object.error = failure.what();
+        }
     }
+    for (size_t k = 1; k < object.bricks.size(); ++k) object.bricks[k - 1].nextLevel(object.bricks[k]);
     object.low = glm::ivec3(kMostCell);
     object.high = glm::ivec3(-kMostCell);
-    for (size_t i = 0; i < object.bricks.size(); ++i) {
-        object.low = glm::min(object.low, object.bricks.place(i));
-        object.high = glm::max(object.high, object.bricks.place(i));
+    for (size_t i = 0; i < bricks.size(); ++i) {
+        object.low = glm::min(object.low, bricks.place(i));
+        object.high = glm::max(object.high, bricks.place(i));
     }
 }
 
-void Objects::end(float time, double cellSize, const Picked& picked, Shell shell, std::vector<glm::ivec3>& changed, const Log& log) {
+void Objects::end(float time, const Grid& grid, std::vector<glm::ivec3>& changed, const Log& log) {
     const auto note = [&](const BrickSet& bricks) {
         for (size_t i = 0; i < bricks.size(); ++i) changed.push_back(bricks.place(i));
     };
@@ -67,7 +81,7 @@ void Objects::end(float time, double cellSize, const Picked& picked, Shell shell
             ++it;
             continue;
         }
-        note(it->second.bricks);
+        if (!it->second.bricks.empty()) note(it->second.bricks[0]);
         it = m_objects.erase(it);
     }
     std::vector<std::pair<const scene::Instance*, scene::Pose*>> wanted;
@@ -79,13 +93,12 @@ void Objects::end(float time, double cellSize, const Picked& picked, Shell shell
     });
     std::vector<std::pair<Object*, const scene::Pose*>> jobs;
     for (auto& [key, object] : m_objects)
-        if (moved(object, poses[key.first], time)) jobs.push_back({&object, &poses[key.first]});
+        if (moved(object, poses[key.first], time, grid)) jobs.push_back({&object, &poses[key.first]});
     tbb::enumerable_thread_specific<Posed> scratch;
-    tbb::parallel_for(size_t(0), jobs.size(),
-        [&](size_t i) { rasteriseObject(*jobs[i].first, *jobs[i].second, cellSize, picked, shell, scratch.local()); });
+    tbb::parallel_for(size_t(0), jobs.size(), [&](size_t i) { rasteriseObject(*jobs[i].first, *jobs[i].second, grid, scratch.local()); });
     for (const auto& [object, posed] : jobs) {
         note(object->before);
-        note(object->bricks);
+        note(object->bricks[0]);
         if (!object->error.empty() && !object->logged) {
             log(fmt::format("{}, node {}: {}", object->model->name, object->part.node, object->error));
             object->logged = true;
@@ -94,22 +107,28 @@ void Objects::end(float time, double cellSize, const Picked& picked, Shell shell
     m_redone = jobs.size();
 }
 
-void Objects::compose(const glm::ivec3& place, Brick& out) const {
+void Objects::compose(const glm::ivec3& place, uint32_t level, Brick& out) const {
     for (const auto& [key, object] : m_objects) {
-        if (glm::any(glm::lessThan(place, object.low)) || glm::any(glm::greaterThan(place, object.high))) continue;
-        if (const Brick* brick = object.bricks.find(place)) out |= *brick;
+        if (object.bricks.empty() || glm::any(glm::lessThan(place, atLevel(object.low, level))) ||
+            glm::any(glm::greaterThan(place, atLevel(object.high, level))))
+            continue;
+        if (const Brick* brick = object.bricks[level].find(place)) out |= *brick;
     }
 }
 
 uint64_t Objects::cells() const {
     uint64_t sum = 0;
-    for (const auto& [key, object] : m_objects) sum += object.bricks.cells();
+    for (const auto& [key, object] : m_objects)
+        if (!object.bricks.empty()) sum += object.bricks[0].cells();
     return sum;
 }
 
 uint64_t Objects::bytes() const {
     uint64_t sum = 0;
-    for (const auto& [key, object] : m_objects) sum += object.bricks.bytes() + object.before.bytes();
+    for (const auto& [key, object] : m_objects) {
+        sum += object.before.bytes();
+        for (const BrickSet& bricks : object.bricks) sum += bricks.bytes();
+    }
     return sum;
 }
 

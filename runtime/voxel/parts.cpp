@@ -46,6 +46,43 @@ size_t trianglesOf(const scene::Model& model, const Part& part, const Picked& pi
     return count;
 }
 
+scene::Bounds boundsOf(const scene::Model& model, const Part& part, const Picked& picked) {
+    scene::Bounds bounds;
+    for (const scene::Primitive& primitive : meshOf(model, part).primitives) {
+        if (!picked(model, primitive)) continue;
+        scene::Bounds own;
+        for (const glm::vec3& p : primitive.positions) own.add(p);
+        glm::vec3 farthest(0.0f);  // sum of the largest displacements
+        for (const scene::Primitive::Target& target : primitive.targets) {
+            glm::vec3 most(0.0f);
+            for (const glm::vec3& d : target.positions) most = glm::max(most, glm::abs(d));
+            farthest += most;
+        }
+        if (own.empty) continue;
+        bounds.add(own.min - farthest);
+        bounds.add(own.max + farthest);
+    }
+    return bounds;
+}
+
+scene::Bounds boundsOf(const scene::Instance& instance, const Part& part, const scene::Pose& pose, const scene::Bounds& own) {
+    const scene::Model& model = *instance.model;
+    const scene::Node& node = model.nodes[size_t(part.node)];
+    std::vector<glm::mat4> matrices{pose.world[size_t(part.node)]};
+    if (node.skin >= 0) {  // a skinned vertex is a mean of its positions under the joints' matrices
+        const std::vector<glm::mat4> joints = scene::jointMatrices(model, model.skins[size_t(node.skin)], pose);
+        matrices.insert(matrices.end(), joints.begin(), joints.end());
+    }
+    scene::Bounds bounds;
+    if (own.empty) return bounds;
+    for (const glm::mat4& matrix : matrices)
+        for (int i = 0; i < 8; ++i) {
+            const glm::vec3 corner(i & 1 ? own.max.x : own.min.x, i & 2 ? own.max.y : own.min.y, i & 4 ? own.max.z : own.min.z);
+            bounds.add(glm::vec3(instance.placement * matrix * glm::vec4(corner, 1.0f)));
+        }
+    return bounds;
+}
+
 void pose(const scene::Instance& instance, const Part& part, const scene::Pose& pose, const Picked& picked, Posed& out) {
     const scene::Model& model = *instance.model;
     out.positions.clear();

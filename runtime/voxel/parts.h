@@ -23,6 +23,11 @@ struct Picked {
 std::vector<Part> partsOf(const scene::Instance& instance, const Picked& picked);
 size_t trianglesOf(const scene::Model& model, const Part& part, const Picked& picked);
 
+// Bounds of a part's vertices before skinning, morph targets at full weight included, in the node's space.
+scene::Bounds boundsOf(const scene::Model& model, const Part& part, const Picked& picked);
+// World-space bounds that contain the posed part. `own`: boundsOf() of it.
+scene::Bounds boundsOf(const scene::Instance& instance, const Part& part, const scene::Pose& pose, const scene::Bounds& own);
+
 // A part's triangles in world space.
 struct Posed {
     std::vector<glm::vec3> positions;

@@ -31,6 +31,7 @@ static_assert(sizeof(openvdb::MaskTree::LeafNodeType::NodeMaskType) == sizeof(Br
 
 struct Sparse::Impl {
     openvdb::MaskGrid::Ptr grid = openvdb::MaskGrid::create();
+    uint64_t cells = 0, bricks = 0;
     openvdb::MaskTree& tree() const { return grid->tree(); }
 };
 
@@ -42,8 +43,18 @@ Sparse& Sparse::operator=(Sparse&&) noexcept = default;
 void Sparse::add(const BrickSet& bricks) {
     openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(m_impl->tree());
     for (size_t i = 0; i < bricks.size(); ++i) {
-        uint64_t* words = accessor.touchLeaf(firstCell(bricks.place(i)))->buffer().data();
-        for (size_t w = 0; w < 8; ++w) words[w] |= bricks[i].words[w];
+        const openvdb::Coord at = firstCell(bricks.place(i));
+        auto* leaf = accessor.probeLeaf(at);
+        if (!leaf) {
+            leaf = accessor.touchLeaf(at);
+            ++m_impl->bricks;
+        }
+        Brick brick;
+        std::memcpy(brick.words.data(), leaf->buffer().data(), sizeof(Brick));
+        m_impl->cells -= brick.count();
+        brick |= bricks[i];
+        m_impl->cells += brick.count();
+        std::memcpy(leaf->buffer().data(), brick.words.data(), sizeof(Brick));
     }
 }
 
@@ -55,23 +66,33 @@ bool Sparse::find(const glm::ivec3& place, Brick& out) const {
 
 bool Sparse::test(const glm::ivec3& cell) const { return m_impl->tree().isValueOn(openvdb::Coord(cell.x, cell.y, cell.z)); }
 
-Sparse Sparse::copy() const {
-    Sparse result;
-    result.m_impl->grid = m_impl->grid->deepCopy();
+BrickSet Sparse::bricksOfAll() const {
+    BrickSet result;
+    for (auto leaf = m_impl->tree().cbeginLeaf(); leaf; ++leaf) {
+        const openvdb::Coord at = leaf->origin();
+        std::memcpy(result.at(brickOf({at.x(), at.y(), at.z()})).words.data(), leaf->buffer().data(), sizeof(Brick));
+    }
     return result;
 }
 
 bool Sparse::put(const glm::ivec3& place, const Brick& brick) {
     const openvdb::Coord at = firstCell(place);
     auto* leaf = m_impl->tree().probeLeaf(at);
+    Brick before;
+    if (leaf) std::memcpy(before.words.data(), leaf->buffer().data(), sizeof(Brick));
+    if (before == brick && !(leaf && brick.empty())) return false;
+    m_impl->cells += uint64_t(brick.count()) - before.count();
     if (brick.empty()) {
-        if (leaf) delete m_impl->tree().root().stealNode<openvdb::MaskTree::LeafNodeType>(at, false, false);
-        return leaf != nullptr;
+        delete m_impl->tree().root().stealNode<openvdb::MaskTree::LeafNodeType>(at, false, false);
+        --m_impl->bricks;
+        return true;
     }
-    if (!leaf) leaf = m_impl->tree().touchLeaf(at);
-    const bool same = std::memcmp(leaf->buffer().data(), brick.words.data(), sizeof(Brick)) == 0;
+    if (!leaf) {
+        leaf = m_impl->tree().touchLeaf(at);
+        ++m_impl->bricks;
+    }
     std::memcpy(leaf->buffer().data(), brick.words.data(), sizeof(Brick));
-    return !same;
+    return true;
 }
 
 std::vector<uint32_t> Sparse::nano() const {
@@ -82,8 +103,8 @@ std::vector<uint32_t> Sparse::nano() const {
     return words;
 }
 
-uint64_t Sparse::cells() const { return m_impl->tree().activeVoxelCount(); }
-uint64_t Sparse::bricks() const { return m_impl->tree().leafCount(); }
+uint64_t Sparse::cells() const { return m_impl->cells; }
+uint64_t Sparse::bricks() const { return m_impl->bricks; }
 uint64_t Sparse::bytes() const { return m_impl->tree().memUsage(); }
 
 void Sparse::save(const std::filesystem::path& file, const std::string& key, double cellSize) const {
@@ -129,6 +150,8 @@ Sparse Sparse::load(const std::filesystem::path& file, const std::string& key) {
         const auto stored = grid->getMetadata<openvdb::StringMetadata>(kKeyName);
         if (!stored || stored->value() != key) throw refuse("belongs to another world");
         result.m_impl->grid = grid;
+        result.m_impl->cells = grid->tree().activeVoxelCount();
+        result.m_impl->bricks = grid->tree().leafCount();
     } catch (const openvdb::Exception& error) {
         throw refuse(error.what());
     }

@@ -18,7 +18,7 @@ public:
     Sparse& operator=(Sparse&&) noexcept;
 
     void add(const BrickSet& bricks);
-    Sparse copy() const;
+    BrickSet bricksOfAll() const;
     // Replaces a brick; an empty one is removed. False if this changes nothing.
     bool put(const glm::ivec3& place, const Brick& brick);
     // False if there is no such brick. Threads may call it concurrently.

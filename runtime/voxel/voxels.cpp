@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <exception>
+#include <cmath>
+#include <tuple>
 
 #include "voxel/objects.h"
 #include "voxel/window.h"
@@ -21,7 +22,7 @@ constexpr std::chrono::milliseconds kProgressInterval(100);
 }  // namespace
 
 struct Voxels::Impl {
-    explicit Impl(Options o) : options(std::move(o)), window(options.cells), picked{options.masked} {}
+    explicit Impl(Options o);
 
     const Options options;
 
@@ -29,30 +30,44 @@ struct Voxels::Impl {
     scene::World world;
     float time = 0.0f;
     glm::vec3 eye{0.0f};
-    Resting resting;
+    bool waitForBuilds = false;
     Objects objects;
-    Window window;
+    std::vector<Window> windows;  // by level
     Picked picked;
-    Sparse composed;             // static geometry and objects; with options.nano
-    std::vector<uint32_t> grid;  // of `composed`
-    bool failed = false;         // static geometry could not be built: logged once, tried again when it changes
+    NanoGrid grid;  // all windows' bricks; with options.nano
     std::vector<std::string> lines;
+    std::atomic<float> progress{1.0f};
+    Resting resting;
     double stepMilliseconds = 0.0;
 
     // Owned by the caller.
     Change change;
     bool resendAll = false;
-    uint64_t sentGrid = 0;  // bytes of the newest grid
     Statistics statistics;
-    std::atomic<float> progress{1.0f};
     bool reportedEnd = true;  // of building, to options.progress
     Worker worker;            // last member: its thread ends before the others are destroyed
 
     void reportProgress();
-    void composeGrid(std::span<const glm::ivec3> changed, bool all, const Window::Compose& compose);
+    void updateWindows(const std::vector<glm::ivec3>& changed, bool all);
+    void updateGrid();
     void step();
     void collect();
 };
+
+Voxels::Impl::Impl(Options o)
+    : options(std::move(o)),
+      windows(options.levels, Window(options.cells)),
+      picked{options.masked},
+      resting({.cells = options.cells,
+          .levels = options.levels,
+          .cellSize = options.cellSize,
+          .picked = picked,
+          .shell = options.shell,
+          .bits = options.bits,
+          .cache = options.cache,
+          .mostBricks = options.mostBricks,
+          .say = [this](const std::string& line) { lines.push_back(line); },
+          .progress = &progress}) {}
 
 void Voxels::Impl::reportProgress() {
     const float now = progress;
@@ -60,68 +75,55 @@ void Voxels::Impl::reportProgress() {
     reportedEnd = now >= 1.0f;
 }
 
-void Voxels::Impl::composeGrid(std::span<const glm::ivec3> changed, bool all, const Window::Compose& compose) {
-    if (all) composed = resting.sparse().copy();
-    bool differs = all;
-    for (const glm::ivec3& place : changed) {
-        Brick brick;
-        compose(place, brick);
-        differs = composed.put(place, brick) || differs;
+// `changed`: places of level 0, which may have duplicates.
+void Voxels::Impl::updateWindows(const std::vector<glm::ivec3>& changed, bool all) {
+    const glm::ivec3 centre = centreBrick(resting.cellSize(), eye);
+    std::vector<glm::ivec3> places = changed;
+    for (uint32_t k = 0; k < windows.size(); ++k) {
+        if (k > 0)
+            for (glm::ivec3& place : places) place = atLevel(place, 1);
+        std::sort(places.begin(), places.end(),
+            [](const glm::ivec3& a, const glm::ivec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        const glm::ivec3 origin = windowOrigin(options.cells, k, centre);
+        if (!options.bits) windows[k].place(origin);
+        else
+            windows[k].update(origin, places, all, [&](const glm::ivec3& place, Brick& out) {
+                resting.find(place, k, out);
+                objects.compose(place, k, out);
+            });
     }
-    if (differs) grid = composed.nano();
+}
+
+void Voxels::Impl::updateGrid() {
+    const uint32_t side = options.cells / kBrickSide;
+    for (uint32_t k = 0; k < windows.size(); ++k)
+        for (const uint32_t address : windows[k].takeChanged(false))
+            grid.put({k * side + address / (side * side), address / side % side, address % side}, windows[k][address]);
 }
 
 // One frame, on the worker's thread.
 void Voxels::Impl::step() {
-    bool rebuilt = false;
-    if (!resting.holds(world, picked)) {
-        Resting::Options build;
-        build.cells = options.cells;
-        build.cellSize = options.cellSize;
-        build.picked = picked;
-        build.shell = options.shell;
-        build.bits = options.bits;
-        build.cache = options.cache;
-        build.mostBricks = options.mostBricks;
-        build.say = [this](const std::string& line) { lines.push_back(line); };
-        build.progress = &progress;
-        progress = 0.0f;
-        failed = false;
-        try {
-            resting.build(world, time, build);
-        } catch (const std::exception& error) {
-            failed = true;
-            lines.push_back(error.what());
-        }
-        progress = 1.0f;
-        objects.clear();
-        rebuilt = true;
-    }
-    if (failed) return;
-    const scene::Bounds& bounds = resting.bounds();
-    const glm::ivec3 origin = windowOrigin(options.cells, resting.cellSize(), bounds.min, bounds.max, eye);
-    if (!options.bits) return window.place(origin);
-    const Clock::time_point begun = Clock::now();
     std::vector<glm::ivec3> changed;
-    objects.begin();
-    std::vector<Part> parts;
-    for (const scene::Instance& instance : world.instances()) {
-        if (!instance.model) continue;
-        parts = partsOf(instance, picked);
-        std::erase_if(parts, [&](const Part& part) { return resting.contains(instance.id, part); });
-        objects.add(instance, parts);
+    const bool isNew = resting.update(world, time, waitForBuilds, changed);
+    if (isNew) objects.clear();
+    const Clock::time_point begun = Clock::now();
+    if (options.bits) {
+        objects.begin();
+        std::vector<Part> parts;
+        for (const scene::Instance& instance : world.instances()) {
+            if (!instance.model) continue;
+            parts = partsOf(instance, picked);
+            std::erase_if(parts, [&](const Part& part) { return resting.contains(instance.id, part); });
+            objects.add(instance, parts);
+        }
+        const glm::dvec3 centre = glm::dvec3(centreBrick(resting.cellSize(), eye)) * (kBrickSide * resting.cellSize());
+        const double half = 0.5 * double(options.cells) * std::exp2(double(options.levels - 1)) * resting.cellSize();
+        objects.end(time, {resting.cellSize(), options.levels, centre - half, centre + half, picked, options.shell}, changed,
+            [this](const std::string& line) { lines.push_back(line); });
     }
-    objects.end(time, resting.cellSize(), picked, options.shell, changed, [this](const std::string& line) { lines.push_back(line); });
-    const auto compose = [this](const glm::ivec3& place, Brick& out) {
-        resting.sparse().find(place, out);
-        objects.compose(place, out);
-    };
-    if (options.nano) {
-        window.place(origin);
-        composeGrid(changed, rebuilt, compose);
-    } else {
-        window.update(origin, changed, rebuilt, compose);
-    }
+    updateWindows(changed, isNew);
+    if (options.nano) updateGrid();
     stepMilliseconds = millisecondsSince(begun);
 }
 
@@ -131,19 +133,29 @@ void Voxels::Impl::collect() {
     lines.clear();
     change.addresses.clear();
     change.bricks.clear();
-    change.cells = failed || resting.cellSize() == 0.0 ? 0 : options.cells;
-    if (change.cells == 0) return;
-    change.cellSize = resting.cellSize();
-    change.origin = window.origin() * kBrickSide;
+    change.gridRanges.clear();
     change.grid.clear();
+    change.cells = resting.cellSize() == 0.0 ? 0 : options.cells;
+    if (change.cells == 0) return;
+    change.levels = options.levels;
+    change.cellSize = resting.cellSize();
+    change.origin = windows[0].origin() * kBrickSide;
     if (options.nano) {
-        if (!grid.empty()) sentGrid = grid.size() * sizeof(uint32_t);
-        change.grid.swap(grid);
+        change.gridBytes = grid.bytes();
+        change.gridRanges = grid.takeChanged();
+        if (resendAll) change.gridRanges = {{0, grid.bytes()}};
+        for (const NanoGrid::Range& range : change.gridRanges) {
+            const auto words = grid.words().subspan(range.offset / 4, range.bytes / 4);
+            change.grid.insert(change.grid.end(), words.begin(), words.end());
+        }
     } else {
-        change.addresses = window.takeChanged(resendAll);
+        const uint32_t bricks = uint32_t(change.bytes() / change.levels / sizeof(Brick));
+        for (uint32_t k = 0; k < windows.size(); ++k)
+            for (const uint32_t address : windows[k].takeChanged(resendAll)) {
+                change.addresses.push_back(k * bricks + address);
+                change.bricks.push_back(windows[k][address]);
+            }
     }
-    change.bricks.reserve(change.addresses.size());
-    for (const uint32_t address : change.addresses) change.bricks.push_back(window[address]);
     resendAll = false;
 
     statistics.resting = resting.facts();
@@ -151,13 +163,14 @@ void Voxels::Impl::collect() {
     statistics.redone = objects.redone();
     statistics.objectCells = objects.cells();
     statistics.objectBytes = objects.bytes();
-    statistics.windowBytes = options.nano ? sentGrid : uint64_t(options.cells) * options.cells * options.cells / 8;
+    statistics.windowBytes = options.nano ? grid.bytes() : change.bytes();
     statistics.changedBytes = change.bricks.size() * sizeof(Brick) + change.grid.size() * sizeof(uint32_t);
     statistics.workerMilliseconds = stepMilliseconds;
 }
 
 Voxels::Voxels(Options options) {
     options.cells = std::bit_ceil(std::clamp(options.cells, 64u, 512u));
+    options.levels = std::clamp(options.levels, 1u, kMostLevels);
     m_impl = std::make_unique<Impl>(std::move(options));
 }
 Voxels::~Voxels() = default;
@@ -168,16 +181,17 @@ const Change& Voxels::update(const scene::World& world, float time, const glm::v
         impl.world = world;
         impl.time = time;
         impl.eye = eye;
+        impl.waitForBuilds = wait == Wait::exact;
         impl.worker.post([&impl] { impl.step(); });
     };
     const Clock::time_point begun = Clock::now();
-    if (wait == Wait::exact) {
+    if (wait != Wait::latest) {
         impl.worker.wait();
         post();
         while (!impl.worker.done(kProgressInterval)) impl.reportProgress();
         impl.reportProgress();
         impl.collect();
-    } else if (impl.worker.done(kMaxWait)) {
+    } else if (impl.worker.done(impl.progress < 1.0f ? std::chrono::microseconds(0) : kMaxWait)) {  // a build takes every core
         impl.reportProgress();
         impl.collect();
         post();
@@ -187,6 +201,7 @@ const Change& Voxels::update(const scene::World& world, float time, const glm::v
         impl.statistics.changedBytes = 0;
         impl.change.addresses.clear();
         impl.change.bricks.clear();
+        impl.change.gridRanges.clear();
         impl.change.grid.clear();
     }
     impl.statistics.waitMilliseconds = millisecondsSince(begun);

@@ -61,18 +61,15 @@ std::vector<uint32_t> Window::takeChanged(bool all) {
     return taken;
 }
 
-glm::ivec3 windowOrigin(uint32_t cells, double cellSize, const glm::vec3& worldMin, const glm::vec3& worldMax, const glm::vec3& eye) {
-    const int side = int(cells / kBrickSide);
-    const auto brickAt = [&](float metres) {
-        const double most = double(kMostCell / kBrickSide - side - 1);
-        return int(std::clamp(std::floor((double(metres) / cellSize + 0.5) / kBrickSide), -most, most));
-    };
-    glm::ivec3 origin;
-    for (int k = 0; k < 3; ++k) {
-        const int low = brickAt(worldMin[k]), high = brickAt(worldMax[k]) + 1;
-        origin[k] = high - low <= side ? low - (side - (high - low)) / 2 : std::clamp(brickAt(eye[k]) - side / 2, low, high - side);
-    }
-    return origin;
+glm::ivec3 centreBrick(double cellSize, const glm::vec3& eye) {
+    const double most = double(kMostCell / kBrickSide / 2);
+    glm::ivec3 centre;
+    for (int k = 0; k < 3; ++k) centre[k] = int(std::clamp(std::floor((double(eye[k]) / cellSize + 0.5) / kBrickSide), -most, most));
+    return centre;
+}
+
+glm::ivec3 windowOrigin(uint32_t cells, uint32_t level, const glm::ivec3& centre) {
+    return atLevel(centre, level) - int(cells / kBrickSide / 2);
 }
 
 }  // namespace obscura::voxel

@@ -1,5 +1,5 @@
-// The window on the GPU: a dense cube of bricks, addressed toroidally. A brick's address is its place modulo the cube's side, so moving the
-// window writes only the slabs that enter.
+// One level's window on the GPU: a dense cube of bricks, addressed toroidally. A brick's address is its place modulo the cube's side, so
+// moving the window writes only the slabs that enter. The windows of all levels are centred on the eye [Losasso and Hoppe 2004, clipmaps].
 #pragma once
 
 #include <functional>
@@ -39,7 +39,10 @@ private:
     std::vector<uint32_t> m_changed;
 };
 
-// The lowest brick of a window, per axis: centred on the world if it fits, else on the eye, clamped to the world.
-glm::ivec3 windowOrigin(uint32_t cells, double cellSize, const glm::vec3& worldMin, const glm::vec3& worldMax, const glm::vec3& eye);
+// The brick of level 0 that the windows are centred on: the one that contains the eye.
+glm::ivec3 centreBrick(double cellSize, const glm::vec3& eye);
+// The lowest brick of a level's window. Level k then holds all cells less than cells / 2 - 8 cells of that level from the lowest corner of
+// the centre brick, along each axis; level 0 those less than cells / 2.
+glm::ivec3 windowOrigin(uint32_t cells, uint32_t level, const glm::ivec3& centre);
 
 }  // namespace obscura::voxel

@@ -1,5 +1,5 @@
-// Lookups of shared/volume.h in a NanoVDB grid of type mask instead of the dense window, for shaders that define VOLUME_NANOVDB. PNanoVDB
-// does the traversal; its accessor caches the nodes of the last lookup, so neighbouring cells are cheap.
+// Lookups of shared/volume.h in a NanoVDB grid of type mask instead of dense cubes, for shaders that define VOLUME_NANOVDB. PNanoVDB does the
+// traversal; its accessor caches the nodes of the last lookup, so neighbouring cells are cheap.
 #ifndef OBSCURA_SHARED_VOLUME_NANOVDB_H
 #define OBSCURA_SHARED_VOLUME_NANOVDB_H
 
@@ -18,23 +18,18 @@ void openVolume() {
     pnanovdb_readaccessor_init(volumeAccessor, pnanovdb_tree_get_root(volumeBuffer, tree));
 }
 
-ivec3 volumeCell(Volume v, vec3 place) { return ivec3(floor(place)) + ivec3(v.shift.xyz); }
-bool occupied(Volume v, vec3 place) {
-    return pnanovdb_readaccessor_is_active(PNANOVDB_GRID_TYPE_MASK, volumeBuffer, volumeAccessor, volumeCell(v, place));
+ivec3 gridCell(Volume v, vec3 place, uint level) {
+    ivec3 cell = (ivec3(floor(place)) + (ivec3(v.anchor.xyz) >> level)) & (int(v.anchor.w) - 1);  // w = 0: all bits
+    return ivec3(cell.x + int(level * v.anchor.w), cell.yz);
 }
-float emptySide(Volume v, vec3 place) {
-    if (occupied(v, place)) return 0.0;
-    return float(pnanovdb_readaccessor_get_dim(PNANOVDB_GRID_TYPE_MASK, volumeBuffer, volumeAccessor, volumeCell(v, place)));
+bool occupiedAt(Volume v, vec3 place, uint level) {
+    return pnanovdb_readaccessor_is_active(PNANOVDB_GRID_TYPE_MASK, volumeBuffer, volumeAccessor, gridCell(v, place, level));
 }
-vec3 cubeBegin(Volume v, vec3 place, float side) {
-    ivec3 corner = ivec3(v.shift.xyz);
-    return vec3(((ivec3(floor(place)) + corner) & ~(ivec3(side) - 1)) - corner);
-}
-void volumeBox(Volume v, out vec3 low, out vec3 high) {
-    pnanovdb_root_handle_t root = volumeAccessor.root;
-    ivec3 corner = ivec3(v.shift.xyz);
-    low = vec3(pnanovdb_root_get_bbox_min(volumeBuffer, root) - corner);
-    high = vec3(pnanovdb_root_get_bbox_max(volumeBuffer, root) - corner + 1);
+float emptySideAt(Volume v, vec3 place, uint level) {
+    ivec3 cell = gridCell(v, place, level);
+    if (pnanovdb_readaccessor_is_active(PNANOVDB_GRID_TYPE_MASK, volumeBuffer, volumeAccessor, cell)) return 0.0;
+    uint side = pnanovdb_readaccessor_get_dim(PNANOVDB_GRID_TYPE_MASK, volumeBuffer, volumeAccessor, cell);
+    return float(v.anchor.w == 0u ? side : min(side, 8u));  // larger cubes may wrap around the edge of a level
 }
 
 #endif

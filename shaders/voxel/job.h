@@ -5,14 +5,15 @@
 OBSCURA_SHARED_BEGIN
 
 struct VoxelJob {
-    vec4 rows[3];      // object space -> cells, counted from the window's lowest corner; cell i spans [i, i + 1]
-    uvec4 shift;       // as in shared/volume.h
+    vec4 rows[3];      // object space -> cells of a level, counted from its window's lowest corner; cell i spans [i, i + 1]
+    uvec4 corner;      // xyz: that corner's cell in the world, modulo the side; w: cells a side, a power of two
     uint triangles;
     uint indices;      // first index
     uint positions;    // first float of vertex 0, in the vertices or, if posed, in the posed positions
     uint posed;        // 1 or 0
     uint thin;         // 1: thin shell, 0: conservative
-    uint unused[3];
+    uint firstWord;    // of the level
+    uint unused[2];
 };
 OBSCURA_SHARED_SIZE(VoxelJob, 96);
 

@@ -1,4 +1,4 @@
-// Triangles to the volume's bits, as runtime/voxel/rasterise.cpp, in single precision. A slack covers the rounding: no cell is lost, and
+// Triangles to the bits of a level of the volume, as runtime/voxel/rasterise.cpp, in single precision. A slack covers the rounding: no cell is lost, and
 // cells that a triangle misses by less than the slack are set too. One invocation draws a small triangle; the workgroup draws a large one,
 // one row per invocation. In: vertices of a primitive, or their posed positions, and indices. Out: bits, set by atomic OR, never cleared.
 #version 460
@@ -74,7 +74,7 @@ bool shapeOf(VoxelJob job, uint triangle, out Shape s) {
     s.slack = max(1e-4, 4e-7 * farthest);
     vec3 total = p0 + p1 + p2;  // min and max can drop a NaN, a sum cannot
     bool valid = farthest < kFarthest && abs(total.x) + abs(total.y) + abs(total.z) < 16.0 * kFarthest;
-    float side = float(job.shift.w);
+    float side = float(job.corner.w);
     vec3 from = max(floor(lowest - s.slack), 0.0), to = min(floor(highest + s.slack), side - 1.0);
     if (!valid || any(lessThan(to, from))) return false;
     vec3 n = abs(cross(p1 - p0, p2 - p0));
@@ -115,8 +115,8 @@ void draw(VoxelJob job, Shape s, int first, int every) {
             for (float z = up.x; z <= up.y; z += 1.0) {
                 uvec3 cell = uvec3(rotatedBack(s.low + ivec3(x, y, z), s.axis));
                 Volume v;
-                v.shift = job.shift;
-                uint word = wordOf(v, cell), bit = 1u << bitOf(v, cell);
+                v.anchor = job.corner;
+                uint word = job.firstWord + wordOf(v, cell, 0u), bit = 1u << bitOf(v, cell, 0u);
                 if ((bits[word] & bit) == 0u) atomicOr(bits[word], bit);  // the read avoids most atomics: cells are set many times
             }
         }

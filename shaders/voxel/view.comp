@@ -1,5 +1,5 @@
 // Debug view of the volume: ray-traced from the camera, shaded by the cell's face, with a random grey per cell; or a map of one layer of
-// cells, with outlines of bricks and a cross at the camera. In: the volume. Out: an image of the visible size.
+// cells, with outlines of bricks and a cross at the camera. Each place shows the finest level that holds it. In: the volume. Out: an image of the visible size.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant VOLUME_NANOVDB
@@ -28,8 +28,8 @@ vec3 traced(View view, Volume volume, ivec2 p) {
     vec3 from = cellOf(volume, parallel ? eyePosition(view, pixel, 0.0) : vec3(0.0));
     vec3 along = normalize(cellsAlong(volume, parallel ? vec3(0, 0, -1) : eyePosition(view, pixel, 1.0)));
     vec3 inverse = 1.0 / mix(along, vec3(1e-7), lessThan(abs(along), vec3(1e-7)));
-    vec3 low, high;
-    volumeBox(volume, low, high);
+    float half_ = ldexp(volume.halfSide, int(volume.levels) - 1) * 0.9999;
+    vec3 low = volume.centre.xyz - half_, high = volume.centre.xyz + half_;
     vec3 one = (low - from) * inverse, two = (high - from) * inverse, near = min(one, two), far = max(one, two);
     const float kNudge = 2e-3;  // cells, into the next cell
     float t = max(max(max(near.x, near.y), near.z), 0.0) + kNudge, end = min(min(far.x, far.y), far.z);
@@ -40,14 +40,15 @@ vec3 traced(View view, Volume volume, ivec2 p) {
         if (size == 0.0) {
             vec3 n = vec3(0.0);
             n[side] = -sign(along[side]);
-            vec3 inCell = abs(fract(at) - 0.5);
+            float cell = ldexp(1.0, int(levelWithin(volume, farFromMiddle(volume, at))));
+            vec3 inCell = abs(fract(at / cell) - 0.5);
             inCell[side] = 0.0;
             // Outlines where a cell is wider than 5 pixels.
-            float pixels = view.pixelsPerMetre * volume.anchor.w / max(parallel ? 1.0 : t * volume.anchor.w, 1e-3);
+            float pixels = cell * view.pixelsPerMetre * volume.centre.w / max(parallel ? 1.0 : t * volume.centre.w, 1e-3);
             float outline = pixels > 5.0 && max(max(inCell.x, inCell.y), inCell.z) > 0.5 - 0.6 / pixels ? 0.75 : 1.0;
             float light = 0.62 + 0.26 * n.y + 0.12 * abs(n.x);
             vec3 tint = mix(vec3(0.95), n * 0.5 + 0.5, 0.35);
-            return tint * (light * outline * greyOf(ivec3(floor(at))));
+            return tint * (light * outline * greyOf(ivec3(floor(at / cell))));
         }
         // To the end of the empty cube, which is aligned to its size.
         vec3 begin = cubeBegin(volume, at, size);
@@ -61,9 +62,7 @@ vec3 traced(View view, Volume volume, ivec2 p) {
 vec3 layerMap(View view, Volume volume, ivec2 p) {
     vec2 size = vec2(view.visible);
     vec2 at = (vec2(p) + 0.5 - 0.5 * size) * (shown / min(size.x, size.y));
-    vec3 low, high;
-    volumeBox(volume, low, high);
-    vec3 eye = cellOf(volume, vec3(0.0)), middle = volume.shift.w > 0u ? 0.5 * float(volume.shift.w) * vec3(1.0) : eye;
+    vec3 eye = cellOf(volume, vec3(0.0)), middle = volume.anchor.w > 0u ? volume.centre.xyz : eye;
     // Seen along y: x to the right, z down. Seen along x or z: y up.
     vec3 place = middle + (axis == 1 ? vec3(at.x, 0, at.y) : axis == 0 ? vec3(0, -at.y, at.x) : vec3(at.x, -at.y, 0));
     place[axis] = layer;
@@ -71,11 +70,12 @@ vec3 layerMap(View view, Volume volume, ivec2 p) {
     apart[axis] = 0.0;
     vec2 cross_ = axis == 1 ? apart.xz : axis == 0 ? apart.yz : apart.xy;
     if (min(cross_.x, cross_.y) < 1.0 && max(cross_.x, cross_.y) < 9.0) return vec3(1.0, 0.3, 0.2);
-    if (any(lessThan(place, low)) || any(greaterThanEqual(place, high))) return vec3(0.03);
-    if (occupied(volume, place)) return vec3(0.93, 0.88, 0.72) * greyOf(ivec3(floor(place)));
-    vec3 inBrick = fract(place / 8.0) * 8.0;
+    uint level = levelWithin(volume, farFromMiddle(volume, place));
+    if (level >= volume.levels) return vec3(0.03);
+    vec3 inLevel = ldexp(place, ivec3(-int(level))), inBrick = fract(inLevel / 8.0) * 8.0;
+    if (occupied(volume, place)) return vec3(0.93, 0.88, 0.72) * greyOf(ivec3(floor(inLevel)));
     inBrick[axis] = 8.0;
-    float line = shown / min(size.x, size.y);
+    float line = ldexp(shown / min(size.x, size.y), -int(level));
     return min(min(inBrick.x, inBrick.y), inBrick.z) < line ? vec3(0.17, 0.20, 0.25) : vec3(0.10, 0.12, 0.15);
 }
 

@@ -241,9 +241,9 @@ TEST_F(Frame, voxelsAreUploadedInCulledFrames) {
         device().nextFrame();
         graph.begin();
         ao::Volume volume;
-        const graph::BufferId bits = voxels.add(graph, {world, 0.0f, camera, {}, {}, true}, {}, volume);
+        const graph::BufferId bits = voxels.add(graph, {world, 0.0f, camera, {}, {}, true}, {.cellSize = 0.1f}, volume);
         ASSERT_TRUE(bool(bits));
-        bytes = uint64_t(volume.cells) * volume.cells * volume.cells / 8;
+        bytes = uint64_t(volume.cells) * volume.cells * volume.cells / 8;  // of level 0
         if (isRead) {
             ASSERT_EQ(gpu::Buffer::create(device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback, "back", back),
                 gpu::Status::ok);

@@ -1,14 +1,16 @@
-// The shader lookup function gives the same result for both structures of the volume, at every cell.
+// The shader's lookups give the same result for both structures of the volume, at every cell of every level.
 #include <cstring>
 #include <random>
 
 #include <fmt/format.h>
 
+#include "ao/view.h"
 #include "gpu/compiler/compile.h"
 #include "gpu/test_device.h"
 #include "gpu/test_shaders.h"
 #include "graph/executor.h"
 #include "shared/volume.h"
+#include "voxel/nano_grid.h"
 #include "voxel/shapes.h"
 #include "voxel/sparse.h"
 #include "voxel/window.h"
@@ -81,6 +83,15 @@ protected:
         return result;
     }
 
+    static shared::Volume blockOf(const glm::ivec3& origin, ao::Volume volume) {
+        for (int axis = 0; axis < 3; ++axis) volume.origin[axis] = origin[axis];
+        for (int i = 0; i < 16; i += 5) volume.cellFromEye[i] = 1.0f;
+        shared::Volume block{};
+        const char* reason = nullptr;
+        EXPECT_EQ(ao::volumeOf(volume, block, reason), ao::Status::ok) << (reason ? reason : "");
+        return block;
+    }
+
     // Compares the cells of a window of 64 around `origin` in both structures with the set.
     void expectSame(const voxel::BrickSet& cells, const glm::ivec3& origin) {
         voxel::Sparse sparse;
@@ -89,17 +100,14 @@ protected:
         window.update(origin / 8, {}, true, [&](const glm::ivec3& place, voxel::Brick& out) { sparse.find(place, out); });
         std::vector<uint32_t> dense(64 * 64 * 64 / 32, 0);
         for (const uint32_t address : window.takeChanged(true)) std::memcpy(&dense[address * 16], &window[address], sizeof(voxel::Brick));
-        shared::Volume block{};
-        block.shift = {uint32_t(origin.x) & 63, uint32_t(origin.y) & 63, uint32_t(origin.z) & 63, 64};
-        shared::Volume gridBlock = block;
-        gridBlock.shift = {uint32_t(origin.x), uint32_t(origin.y), uint32_t(origin.z), 0};
+        const shared::Volume block = blockOf(origin, {.cells = 64}), gridBlock = blockOf(origin, {ao::VolumeStructure::nanovdb});
 
         std::vector<glm::vec4> places;  // every cell of the window, then random cells in and around it
         places.reserve(64 * 64 * 64 + 40000);
         for (int i = 0; i < 64 * 64 * 64; ++i)
             places.emplace_back(float(i / 4096) + 0.5f, float(i / 64 % 64) + 0.5f, float(i % 64) + 0.5f, 0.0f);
         std::mt19937 random(5);
-        std::uniform_real_distribution<float> anywhere(0.0f, 63.99f), far(-5000.0f, 5000.0f);
+        std::uniform_real_distribution<float> anywhere(0.01f, 63.99f), far(-5000.0f, 5000.0f);
         for (int i = 0; i < 20000; ++i) places.emplace_back(anywhere(random), anywhere(random), anywhere(random), 0.0f);
         const size_t within = places.size();
         for (int i = 0; i < 20000; ++i) places.emplace_back(far(random), far(random), far(random), 0.0f);
@@ -131,6 +139,65 @@ TEST_F(VolumeLookupTest, bothStructuresAgree) {
     for (int i = 0; i < 512; ++i) structured.set({16 + i / 64, 8 + i / 8 % 8, i % 8});
     for (const glm::ivec3& origin : {glm::ivec3(-32), glm::ivec3(-8, -8, -32), glm::ivec3(4064, -32, -32)}) expectSame(structured, origin);
     expectSame(voxel::BrickSet(), glm::ivec3(0));
+}
+
+// Three levels of 64 cells: in each place the finest level answers that holds it, and a cell of level k is the union of 8^k cells.
+TEST_F(VolumeLookupTest, levelsAgree) {
+    voxel::BrickSet cells[3];
+    voxel::rasterise(randomSoup(600, 16.0f, 3.0f, 5).triangles(), 0.1, cells[0]);
+    for (int k = 1; k < 3; ++k) cells[k - 1].nextLevel(cells[k]);
+    // Both copies are edited as the windows move.
+    std::vector<voxel::Window> windows(3, voxel::Window(64));
+    constexpr uint32_t kWords = 64 * 64 * 64 / 32;
+    std::vector<uint32_t> dense(3 * kWords, 0), copy;
+    voxel::NanoGrid edited;
+    for (const glm::vec3& eye : {glm::vec3(0.0f), glm::vec3(-7.3f, 2.9f, 5.55f), glm::vec3(5.0f, -6.0f, 0.4f)}) {
+        const glm::ivec3 centre = voxel::centreBrick(0.1, eye), origin = voxel::windowOrigin(64, 0, centre) * 8;
+        for (uint32_t k = 0; k < 3; ++k) {
+            windows[k].update(voxel::windowOrigin(64, k, centre), {}, false, [&](const glm::ivec3& place, voxel::Brick& out) {
+                if (const voxel::Brick* brick = cells[k].find(place)) out = *brick;
+            });
+            for (const uint32_t address : windows[k].takeChanged(false)) {
+                std::memcpy(&dense[k * kWords + address * 16], &windows[k][address], sizeof(voxel::Brick));
+                edited.put({k * 8 + address / 64, address / 8 % 8, address % 8}, windows[k][address]);
+            }
+        }
+        copy.resize(edited.words().size());
+        for (const voxel::NanoGrid::Range& range : edited.takeChanged())
+            std::memcpy(&copy[range.offset / 4], &edited.words()[range.offset / 4], range.bytes);
+        ASSERT_TRUE(std::equal(copy.begin(), copy.end(), edited.words().begin(), edited.words().end()));
+        const shared::Volume block = blockOf(origin, {.cells = 64, .levels = 3}),
+                             gridBlock = blockOf(origin, {ao::VolumeStructure::nanovdb, VK_NULL_HANDLE, 0, 0, 64, 3});
+        // Places are counted from the anchor. Levels hold less than 24, 48 and 96 cells of level 0 from the middle.
+        const glm::ivec3 anchor(int(block.anchor.x), int(block.anchor.y), int(block.anchor.z)), middle = origin + 32;
+        EXPECT_EQ(anchor.x % 4, 0);
+        std::vector<glm::vec4> places;
+        std::mt19937 random(6);
+        std::uniform_real_distribution<float> anywhere(-100.0f, 100.0f);
+        for (int i = 0; i < 200000; ++i) {
+            const float scale = i % 3 == 0 ? 0.25f : i % 3 == 1 ? 0.5f : 1.0f;
+            const glm::vec3 place(scale * anywhere(random), scale * anywhere(random), scale * anywhere(random));
+            places.emplace_back(place + glm::vec3(middle - anchor), 0.0f);
+        }
+        const std::vector<uint32_t> bits = ask(false, block, dense, places), grid = ask(true, gridBlock, copy, places);
+        ASSERT_EQ(bits.size(), places.size());
+        size_t set[3] = {};
+        for (size_t i = 0; i < places.size(); ++i) {
+            const glm::vec3 from = glm::abs(glm::vec3(places[i]) - glm::vec3(middle - anchor));
+            const float far = std::max({from.x, from.y, from.z});
+            const uint32_t level = far < 24.0f ? 0 : far < 48.0f ? 1 : 2;
+            const bool expected =
+                far < 96.0f && cells[level].test(voxel::atLevel(anchor + glm::ivec3(glm::floor(glm::vec3(places[i]))), level));
+            if (far < 96.0f) {  // the empty cube is right as well
+                ASSERT_EQ(bits[i], expected ? 1u : 0u) << "place " << i << ", level " << level;
+            }
+            ASSERT_EQ(bits[i] & 1u, expected ? 1u : 0u);
+            ASSERT_EQ(grid[i] & 1u, bits[i] & 1u) << "grid, place " << i << ", level " << level;
+            set[level] += expected;
+        }
+        fmt::print("{}, {} and {} of {} places set\n", set[0], set[1], set[2], places.size());
+        for (const size_t count : set) EXPECT_GT(count, 50u);
+    }
 }
 
 TEST_F(VolumeLookupTest, bricksAreReplaced) {

@@ -64,13 +64,45 @@ TEST(Window, onlyDifferingBricksAreWritten) {
     expectSame(window, glm::ivec3(0), compose);
 }
 
-TEST(Window, isCentredOnTheEyeWithinTheWorld) {
-    const glm::vec3 low(-50, 0, -2), high(50, 4, 2);
-    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {0, 1, 0}), glm::ivec3(-4, -1, -2 - 1));  // y, z: the world fits, so it is centred
-    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {-50, 1, 0}).x, -50);
-    EXPECT_EQ(voxel::windowOrigin(64, 0.125, low, high, {80, 1, 0}).x, 51 - 8);
-    const glm::ivec3 far = voxel::windowOrigin(512, 1e-3, glm::vec3(-1e30f), glm::vec3(1e30f), glm::vec3(1e30f));
+// Every level holds its cells less than cells / 2 - 8 from the middle of level 0, wherever the eye is.
+TEST(Window, levelsHoldTheSameMiddle) {
+    constexpr int kCells = 64;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> metres(-300.0f, 300.0f);
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec3 eye(metres(random), metres(random), metres(random));
+        const glm::ivec3 centre = voxel::centreBrick(0.125, eye);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_LE(double(centre[axis]), eye[axis] + 0.0625);
+            EXPECT_GT(double(centre[axis]), eye[axis] - 1.0);
+        }
+        for (uint32_t level = 0; level < 6; ++level) {
+            const glm::ivec3 low = voxel::windowOrigin(kCells, level, centre) * 8, high = low + kCells;  // cells of the level
+            const int size = 1 << level, half = kCells / 2 - (level > 0 ? 8 : 0);
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_LE(low[axis] * size, centre[axis] * 8 - half * size) << level;
+                EXPECT_GE(high[axis] * size, centre[axis] * 8 + half * size) << level;
+            }
+        }
+    }
+    const glm::ivec3 far = voxel::windowOrigin(512, 0, voxel::centreBrick(1e-3, glm::vec3(1e30f)));
     EXPECT_LE(far.x + 64, voxel::kMostCell / 8);
+}
+
+// A cell of the next level is set exactly if one of its eight cells is.
+TEST(Window, nextLevelIsTheUnionOfEightCells) {
+    std::mt19937 random(11);
+    std::uniform_int_distribution<int> cell(-100, 100);
+    voxel::BrickSet fine, coarse;
+    Cells expected;
+    for (int i = 0; i < 400; ++i) {
+        const glm::ivec3 at(cell(random), cell(random), cell(random));
+        fine.set(at);
+        const glm::ivec3 above = voxel::atLevel(at, 1);
+        expected.insert({above.x, above.y, above.z});
+    }
+    fine.nextLevel(coarse);
+    EXPECT_EQ(cellsOf(coarse), expected);
 }
 
 }  // namespace

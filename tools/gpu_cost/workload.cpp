@@ -26,13 +26,15 @@ ao::Frame frameOf(uint32_t width, uint32_t height) {
 
 Workload workloadOf(gpu::Device& device, const gpu::ShaderLibrary& shaders, const ao::Values& values, const ao::Falloff& falloff,
     uint32_t width, uint32_t height) {
-    constexpr uint32_t kCells = 128;
+    constexpr uint32_t kCells = 256, kLevels = 5;
+    constexpr float kCellSize = 0.07f;
     ao::Library library(device, shaders);
     if (!library.prepare(values, falloff.kind))
         throw app::Complaint(fmt::format("{}: its pipelines cannot be made", values.info().id), app::kFailed);
     ao::Frame frame = frameOf(width, height);
     frame.volume.cells = kCells;
-    for (int i = 0; i < 3; ++i) frame.volume.cellFromEye[5 * i] = 1.0f / 0.14f, frame.volume.cellFromEye[12 + i] = kCells / 2;
+    frame.volume.levels = kLevels;
+    for (int i = 0; i < 3; ++i) frame.volume.cellFromEye[5 * i] = 1.0f / kCellSize, frame.volume.cellFromEye[12 + i] = kCells / 2;
     frame.volume.cellFromEye[15] = 1.0f;
 
     graph::Graph graph(device);
@@ -50,7 +52,7 @@ Workload workloadOf(gpu::Device& device, const gpu::ShaderLibrary& shaders, cons
     if (layers != ao::LayerMode::none) sources.layers.thickness = given("thickness", VK_FORMAT_R16_SFLOAT);
     if (layers == ao::LayerMode::secondHalf) sources.layers.second = given("second layer", VK_FORMAT_R16G16_SFLOAT, 2);
     if (layers == ao::LayerMode::second) sources.layers.second = given("second layer", VK_FORMAT_R16G16_SFLOAT);
-    const std::vector<uint32_t> bits(size_t(kCells) * kCells * kCells / 32);
+    const std::vector<uint32_t> bits(size_t(kLevels) * kCells * kCells * kCells / 32);
     sources.volume = graph.upload("volume", bits.data(), bits.size() * sizeof(uint32_t));
     const ao::Library::Added added = library.add(graph, frame, sources, falloff, values);
     if (!added.visibility) throw app::Complaint(fmt::format("{}: its frame is refused", values.info().id), app::kFailed);

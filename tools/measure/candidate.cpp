@@ -57,13 +57,14 @@ void expectKnown(const std::vector<const ao::MethodInfo*>& methods, const std::v
 // Voxelization settings, as parameters of the methods that trace voxels.
 const ao::Parameter kVoxels[] = {
     {"voxels", "", 64, 512, 256, true, {}, ""},
+    {"voxel_levels", "", 1, 8, 5, true, {}, ""},
     {"voxel_size", "m", 0, 1000, 0, false, {}, ""},
     {"voxelizer", "", 0, 1, 0, true, {app::kVoxelizerNames, 2}, ""},
     {"voxel_structure", "", 0, 1, 0, true, {app::kStructureNames, 2}, ""},
     {"voxel_shell", "", 0, 1, 0, true, {app::kShellNames, 2}, ""},
 };
-constexpr std::optional<float> VoxelChoice::* kVoxelMembers[] = {
-    &VoxelChoice::cells, &VoxelChoice::cellSize, &VoxelChoice::voxelizer, &VoxelChoice::structure, &VoxelChoice::shell};
+constexpr std::optional<float> VoxelChoice::* kVoxelMembers[] = {&VoxelChoice::cells, &VoxelChoice::levels, &VoxelChoice::cellSize,
+    &VoxelChoice::voxelizer, &VoxelChoice::structure, &VoxelChoice::shell};
 
 // Empty if the method has no such parameter.
 const ao::Parameter* parameterOf(const Candidate& candidate, const std::string& name) {
@@ -138,6 +139,7 @@ const ao::Preset& resolvePreset(const std::string& said, const std::string& id) 
 
 render::Voxelization VoxelChoice::over(render::Voxelization how) const {
     if (cells) how.cells = uint32_t(*cells);
+    if (levels) how.levels = uint32_t(*levels);
     if (cellSize) how.cellSize = *cellSize;
     if (voxelizer) how.voxelizer = render::Voxelizer(int(*voxelizer));
     if (structure) how.structure = ao::VolumeStructure(int(*structure));

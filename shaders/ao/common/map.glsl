@@ -47,13 +47,18 @@ bool receive(View view, ivec2 p, int every, out vec3 here, out vec3 n) {
     return !isSky(view, z);
 }
 
-// Cell of a world-fixed lattice, `grain` volume cells a side, that contains a surface point. The point is offset along the normal, because
-// floors and walls are often on cell boundaries, where rounding would make noise flicker. The window's origin is added in integers, which
-// keeps precision far from the world's origin.
-const float kOffSurface = 0.31;  // cells
-ivec3 latticeCell(Volume v, vec3 place, vec3 normal, float grain) {
-    float side = v.shift.w == 0u ? 1024.0 : float(v.shift.w);
-    return ivec3(mod(place + kOffSurface * normal + vec3(v.shift.xyz & 1023u), side) / grain);
+// Cell of a world-fixed lattice that contains a surface point; a lattice cell has 1.25 x 2^size volume cells a side, so that both do not
+// repeat together. The point is offset along the normal, because floors and walls are often on cell boundaries, where rounding would make
+// noise flicker. The anchor is added in integers, which keeps precision far from the world's origin.
+const float kOffSurface = 0.31, kLatticeSide = 1.25, kLatticePeriod = 1024.0;
+ivec3 latticeCell(Volume v, vec3 place, vec3 normal, uint size) {
+    vec3 inWorld = mod(place + vec3(v.anchor.xyz & 1023u), kLatticePeriod);
+    return ivec3(ldexp(inWorld, ivec3(-int(size))) / kLatticeSide + kOffSurface * normal);
+}
+// The size of lattice cells at a receiver: cells of its level, and never below `pixels` px of the image, where noise would flicker.
+uint latticeSize(View view, Volume v, uint level, vec3 here, float pixels) {
+    float footprint = (view.orthographic > 0.5 ? 1.0 : -here.z) / view.pixelsPerMetre;
+    return min(max(level, ceilLog2(0.5 * pixels * footprint / v.centre.w)), 10u);
 }
 
 // Three numbers in [0,1) from a lattice cell [Jarzynski and Olano 2020, pcg3d].

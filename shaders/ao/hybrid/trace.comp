@@ -7,6 +7,7 @@
 #define VOLUME_BINDING 2
 #include "ao/common/map.glsl"
 #include "ao/common/tile.glsl"
+#include "ao/common/volume_rays.glsl"
 #include "ao/hybrid/constants.h"
 #include "shared/falloff.h"
 layout(push_constant) uniform Block { HybridTrace constants; };
@@ -19,24 +20,22 @@ void main() {
     FalloffBlock rho = constants.falloff;
     openVolume();
     uint rayCount = constants.rays, stepCount = constants.steps;
-    float coneCosine = constants.cone, offsetCells = constants.offset, jitterOfSteps = constants.jitter;
+    float coneCosine = constants.cone, jitterOfSteps = constants.jitter;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(map)))) return;
     vec3 here, n;
     if (!receive(view, p, int(constants.scale), here, n)) return;
 
     // From here on all positions are in cells, so that a step is one vector addition.
-    float metres = volume.anchor.w;
-    vec3 normal = cellsAlong(volume, n) * metres;
-    vec3 receiver = cellOf(volume, here);
-    vec3 origin = receiver + offsetCells * normal;
+    vec3 normal = cellsAlong(volume, n) * volume.centre.w, receiver = cellOf(volume, here);
+    VolumeRays rays = volumeRays(volume, receiver, normal, rho.reach, constants.offset, constants.stride, constants.octave,
+        constants.equal * constants.steps);
     // Noise depends on the place in the world, not on the pixel, so it does not move with the camera.
-    vec3 xi = fract(cellNoise(latticeCell(volume, receiver, normal, constants.grain)) + frameShift(view));
+    uint grain = latticeSize(view, volume, rays.level, here, constants.grain);
+    vec3 xi = fract(cellNoise(latticeCell(volume, receiver, normal, grain)) + frameShift(view));
     vec3 tangent, bitangent;
     basisAround(normal, tangent, bitangent);
 
-    float step = rho.reach / float(stepCount), cellsPerStep = step / metres;
-    float lift = offsetCells * metres;
     // The azimuth advances by the golden angle from ray to ray. Interleaved, a pixel has every `shares`th ray.
     uint shares = constants.side * constants.side, share = constants.side > 1u ? shareOf(view, p, constants.side) : 0u;
     float azimuth = kTwoPi * xi.y + kGolden * float(share);
@@ -45,23 +44,27 @@ void main() {
                                         : vec2(-0.737368878, -0.675490294);
     // An origin in a set cell is next to another surface. Which half of the rays it blocks is unknown, so each ray is half blocked at the
     // origin, and is traced from one cell on.
-    bool originOccupied = occupied(volume, origin);
-    float nearest = originOccupied ? 1.0 / cellsPerStep : 0.0, originBlocked = originOccupied ? 0.5 : 0.0;
+    bool outside = hitWeight(volume, receiver) == 0.0, originOccupied = !outside && occupiedAt(volume, rays.receiver + rays.lift, rays.level);
+    float originBlocked = originOccupied ? 0.5 : 0.0, lift = constants.offset * rays.metres;
     float blocked = 0.0, total = 0.0, shift = fract(xi.z + kShift * float(share)), shiftStep = kShift * float(shares);
     for (uint i = share; i < rayCount; i += shares) {
         float c = mix(coneCosine, 1.0, (float(i) + xi.x) / float(rayCount));
         float sine = sqrt(max(1.0 - c * c, 0.0));
-        vec3 stride = (tangent * (azimuthVector.x * sine) + bitangent * (azimuthVector.y * sine) + normal * c) * cellsPerStep;
-        float first = mix(0.5, shift, jitterOfSteps);
+        vec3 ray = tangent * (azimuthVector.x * sine) + bitangent * (azimuthVector.y * sine) + normal * c;
+        float first = mix(0.5, shift, jitterOfSteps), nearest = originOccupied ? 1.0 : 0.0;
+        if (outside) nearest = entryOf(volume, rays, ray);
         // Back to front: the last hit is the nearest.
-        float hit = -1.0;
+        uint hit = rays.count;
         for (uint k = 1u; k <= stepCount; ++k) {
-            float t = float(stepCount - k) + first;
-            vec3 at = origin + stride * t;
-            hit = occupied(volume, at) && t >= nearest ? t : hit;
+            uint j = stepCount - k;
+            VolumeStep step = stepOf(rays, j, first);
+            if (j < rays.count) hit = occupiedAt(volume, placeOf(rays, step, ray), step.level) && step.t >= nearest ? j : hit;
         }
         // Distance from the receiver, not from the raised origin, as to a surface that faces the ray.
-        float far = hit >= 0.0 ? falloff(rho, hit * step + lift * c) : 0.0;
+        VolumeStep step = stepOf(rays, hit, first);
+        float far = hit < rays.count
+            ? hitWeight(volume, placeInWorld(rays, step, ray)) * falloff(rho, (step.t + constants.offset * c * step.grow) * rays.metres)
+            : 0.0;
         blocked += c * mix(far, falloff(rho, lift * c), originBlocked);
         total += c;
         azimuthVector =

@@ -7,15 +7,17 @@ OBSCURA_SHARED_BEGIN
 struct OffscreenTrace {  // trace.comp
     FalloffBlock falloff;
     uint rays;
-    float stride;          // longest ray step, cells
+    float stride;          // longest ray step, cells of its level
     uint scale;            // image pixels per map pixel, each way
     uint hidden;           // 1: occluders inside the image behind visible surfaces count too
     float offset;          // of rays' origin along the normal, cells
-    float grain;           // side of a noise cell, in cells
+    float grain;           // least side of a noise cell, image pixels
     float reach;           // of Blocking: metres from the receiver
     float thickness;       // of Blocking: metres behind the visible surface
+    uint octave;           // log2 of the number of steps an octave
+    uint steps;            // most steps of a ray
 };
-OBSCURA_SHARED_SIZE(OffscreenTrace, 44);
+OBSCURA_SHARED_SIZE(OffscreenTrace, 52);
 
 OBSCURA_SHARED_END
 #endif

@@ -9,6 +9,7 @@
 #define VOLUME_BINDING 2
 #include "ao/common/lens.glsl"
 #include "ao/common/map.glsl"
+#include "ao/common/volume_rays.glsl"
 #include "ao/offscreen/constants.h"
 #include "shared/falloff.h"
 #ifdef DEPTH_LAYERS
@@ -18,7 +19,6 @@ layout(set = 0, binding = 7, rgba32ui) uniform readonly uimage2D packedLayers;
 layout(push_constant) uniform Block { OffscreenTrace constants; };
 
 const float kTwoPi = 6.28318531;
-const float kMostSteps = 64.0;
 const float kSlackPixels = 1.5;    // points less than this behind the visible surface are on it
 const float kSlackCells = 1.7321;  // a set cell less than this behind the visible surface may contain that surface
 
@@ -33,8 +33,8 @@ void main() {
     Volume volume = volumeBlock;
     FalloffBlock rho = constants.falloff;
     openVolume();
-    uint rayCount = constants.rays;
-    float offsetCells = constants.offset, reach2 = constants.reach * constants.reach;
+    uint rayCount = constants.rays, stepCount = constants.steps;
+    float reach2 = constants.reach * constants.reach;
     bool countsHidden = constants.hidden != 0u;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, imageSize(map)))) return;
@@ -44,19 +44,18 @@ void main() {
     // Ray points are kept in cells and in homogeneous pixels; a step adds one vector to each. The basis of the rays is in cell axes, so
     // that it does not rotate with the camera.
     Lens lens = lensOf(view);
-    float metres = volume.anchor.w, lift = offsetCells * metres;
-    vec3 up = cellsAlong(volume, n) * metres;
-    vec3 receiver = cellOf(volume, here);
-    vec3 origin = receiver + offsetCells * up, start = toPixels(lens, here + lift * n);
-    vec3 xi = fract(cellNoise(latticeCell(volume, receiver, up, constants.grain)) + frameShift(view));
+    vec3 up = cellsAlong(volume, n) * volume.centre.w, receiver = cellOf(volume, here);
+    VolumeRays rays = volumeRays(volume, receiver, up, rho.reach, constants.offset, constants.stride, constants.octave, 0u);
+    bool outside = hitWeight(volume, receiver) == 0.0;
+    float metres = rays.metres, slackScale = kSlackPixels / view.pixelsPerMetre;
+    uint grain = latticeSize(view, volume, rays.level, here, constants.grain);
+    vec3 xi = fract(cellNoise(latticeCell(volume, receiver, up, grain)) + frameShift(view));
     vec3 tangent, bitangent;
     basisAround(up, tangent, bitangent);
-    vec3 tangentPixels = toPixels(lens, eyeAlong(volume, tangent)), bitangentPixels = toPixels(lens, eyeAlong(volume, bitangent)),
-         upPixels = toPixels(lens, n);
+    vec3 tangentPixels = toPixels(lens, eyeAlong(volume, tangent)) * metres,
+         bitangentPixels = toPixels(lens, eyeAlong(volume, bitangent)) * metres, upPixels = toPixels(lens, n) * metres,
+         start = toPixels(lens, here);
 
-    uint stepCount = uint(clamp(ceil(rho.reach / (constants.stride * metres)), 1.0, kMostSteps));
-    float step = rho.reach / float(stepCount), cellsPerStep = step / metres, slackCells = kSlackCells * metres;
-    float slackScale = kSlackPixels / view.pixelsPerMetre;
     // The azimuth advances by the golden angle from ray to ray.
     vec2 azimuthVector = vec2(cos(kTwoPi * xi.y), sin(kTwoPi * xi.y));
     const vec2 golden = vec2(-0.737368878, -0.675490294);
@@ -65,13 +64,17 @@ void main() {
         float c = sqrt((float(i) + xi.x) / float(rayCount));  // uniform in the squared cosine: all rays have the same weight
         float sine = sqrt(max(1.0 - c * c, 0.0));
         vec2 across = azimuthVector * sine;
-        vec3 stride = (tangent * across.x + bitangent * across.y + up * c) * cellsPerStep;
-        vec3 stridePixels = (tangentPixels * across.x + bitangentPixels * across.y + upPixels * c) * step;
+        vec3 ray = tangent * across.x + bitangent * across.y + up * c;
+        vec3 rayPixels = tangentPixels * across.x + bitangentPixels * across.y + upPixels * c;
+        float entry = outside ? entryOf(volume, rays, ray) : 0.0;
         // Back to front: the last hit is the nearest.
-        float hit = -1.0;
+        uint hit = rays.count;
         for (uint k = 1u; k <= stepCount; ++k) {
-            float t = float(stepCount - k) + shift;
-            vec3 q = start + stridePixels * t, at = origin + stride * t;
+            uint j = stepCount - k;
+            if (j >= rays.count) continue;
+            VolumeStep step = stepOf(rays, j, shift);
+            vec3 q = start + rayPixels * step.t + upPixels * (constants.offset * step.grow);
+            float slackCells = kSlackCells * metres * step.grow;
             ivec2 texel;
             bool inside = texelOf(lens, q, texel);
             float slack = slackScale * (q.z * lens.scale.x + lens.scale.y);
@@ -90,12 +93,16 @@ void main() {
             vec3 d = surfaceAt(lens, texel, zq) - here;
             bool isHidden = behind > slackCells, ends = inside && countedByMethod(behind, slack, constants.thickness, dot(d, d), reach2);
 #endif
-            bool counts = occupied(volume, at) && (!inside || countsHidden && isHidden);
-            hit = ends ? -1.0 : counts ? t : hit;
+            bool counts = occupiedAt(volume, placeOf(rays, step, ray), step.level) && (!inside || countsHidden && isHidden) &&
+                step.t >= entry;
+            hit = ends ? rays.count : counts ? j : hit;
         }
         // Distance from the receiver, which is below the origin: between that to an occluder on its surface (no offset) and that to one
-        // that faces the ray (lift * c).
-        blocked += hit >= 0.0 ? falloff(rho, hit * step + 0.5 * lift * c) : 0.0;
+        // that faces the ray (offset * c).
+        VolumeStep step = stepOf(rays, hit, shift);
+        blocked += hit < rays.count
+            ? hitWeight(volume, placeInWorld(rays, step, ray)) * falloff(rho, (step.t + 0.5 * constants.offset * c * step.grow) * metres)
+            : 0.0;
         azimuthVector =
             vec2(azimuthVector.x * golden.x - azimuthVector.y * golden.y, azimuthVector.x * golden.y + azimuthVector.y * golden.x);
         shift = fract(shift + 0.754877666);

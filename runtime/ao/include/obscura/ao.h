@@ -240,8 +240,13 @@ enum class VolumeStructure : uint8_t {
     // A cube of cells, anchored in the world. The buffer holds the cells from `origin` on, each at its coordinates modulo `cells`, so that
     // moving the cube rewrites only the cells that enter. A brick has 8 cells a side and 16 words: a cell is bit 8 (y & 3) + (z & 7) of
     // word 2 (x & 7) + ((y & 7) >> 2). Brick (X, Y, Z) = (x, y, z) / 8 modulo s begins at word 16 ((X s + Y) s + Z), with s = cells / 8.
+    // More levels follow as cubes of as many cells, those of level k 2^k times as wide: cell c of level k covers the cells 2^k c to
+    // 2^k (c + 1) - 1 of level 0 on each axis and is set if one of them is. Level k holds, modulo `cells`, all its cells less than
+    // cells / 2 - 8 of them from the middle of level 0.
     dense,
-    nanovdb,  // a NanoVDB grid of type mask whose index space counts cells in the same way, for worlds that no cube covers
+    // A NanoVDB grid of type mask. With `cells` 0: its index space counts the cells of the one level, and it has no edge. Else it holds cell
+    // (x, y, z) of level k at ((x modulo cells) + k cells, y modulo cells, z modulo cells).
+    nanovdb,
 };
 
 // The world as bits, 1 where a cell touches surface (conservative: every cell that a triangle touches), for methods with kVolume.
@@ -249,10 +254,12 @@ struct Volume {
     VolumeStructure structure = VolumeStructure::dense;  // of `buffer`
     VkBuffer buffer = VK_NULL_HANDLE;                    // storage usage; null: no volume
     uint64_t offset = 0;                                 // bytes, a multiple of minStorageBufferOffsetAlignment
-    uint64_t bytes = 0;                                  // nanovdb: of the grid. dense: cells^3 / 8 are read
-    uint32_t cells = 0;                                  // dense: cells a side, a power of two from 8 to 1024
-    int32_t origin[3] = {};                              // dense: the lowest cell held. nanovdb: any cell near the camera
-    float cellFromEye[16] = {};  // eye space -> cells, counted from the lowest corner of `origin`; rotation, translation, uniform scale
+    uint64_t bytes = 0;                                  // nanovdb: of the grid. dense: levels cells^3 / 8 are read
+    uint32_t cells = 0;                                  // a side of each level, a power of two from 8 to 1024; nanovdb: or 0, see there
+    uint32_t levels = 1;                                 // 1 to 8; more than one need 32 cells or more, and the camera near the middle
+    int32_t origin[3] = {};                              // the lowest cell of level 0. nanovdb with cells 0: any cell near the camera
+    float cellFromEye[16] = {};  // eye space -> cells of level 0, counted from the lowest corner of `origin`; rotation, translation,
+                                 // uniform scale
 };
 
 // What lies behind the visible surface along each pixel's view ray, for methods with the parameter `depth_layers`, which says how much of

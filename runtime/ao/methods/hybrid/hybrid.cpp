@@ -15,16 +15,23 @@
 #include "ao/hybrid/constants.h"
 #include "ao/interleave.h"
 #include "ao/upsample.h"
+#include "ao/view.h"
 
 namespace obscura::ao::hybrid {
 namespace {
 
-constexpr float kGrain = 1.0f;  // side of a noise cell, in cells of the volume
+constexpr float kGrain = 4.0f;  // px, least side of a noise cell
 
 const Parameter kParameters[] = {
     {"rays", "", 8, 128, 21, true, {}, "Rays per pixel of the map. Cost grows with rays x steps. Too few: blotches after upsampling."},
-    {"steps", "", 4, 64, 10, true, {},
-        "Voxel lookups along each ray, out to the falloff's reach. Cost grows with rays x steps. Too few: thin objects are missed."},
+    {"stride", "cells", 0.5f, 8, 2, false, {},
+        "Longest step along a ray, in cells of the level that it reads. Cost grows with rays / stride. Too long: thin objects are missed."},
+    {"octave", "", 1, 5, 2, true, {},
+        "Binary logarithm of the number of steps after which cells and steps double. Cost grows with it at wide reaches. Too low: large "
+        "cells near the surface, which darken open places."},
+    {"steps", "", 0, 64, 0, true, {},
+        "0: steps by stride. Else as many equal steps out to the falloff's reach, all in the finest level that holds them, as in the "
+        "paper."},
     {"jitter", "", 0, 1, 1, false, {},
         "1: steps are shifted for each ray; the filter removes the noise. 0: equal steps for all rays, as in the paper, which leave "
         "contours."},
@@ -44,12 +51,12 @@ const Parameter kParameters[] = {
         "between surfaces."},
 };
 const Setting kPaper[] = {{"rays", 32}, {"steps", 8}, {"jitter", 0}, {"filter", 16}, {"filter_range", 1}};
-const Setting kQuality[] = {{"rays", 64}, {"steps", 24}, {"filter", 8}, {"map", 1}};
+const Setting kQuality[] = {{"rays", 64}, {"stride", 1}, {"octave", 3}, {"filter", 8}, {"map", 1}};
 const Preset kPresets[] = {
-    {"default", "21 rays x 10 jittered steps on a quarter-area map, 20 px filter.", {}},
+    {"default", "21 rays, jittered steps of 2 cells that grow with the distance, quarter-area map, 20 px filter.", {}},
     {"paper", "32 rays x 8 equal steps on a quarter-area map, 16 px filter. Use a volume of 256 cells a side.",
         {kPaper, std::size(kPaper)}},
-    {"quality", "64 rays x 24 steps at every pixel, 8 px filter.", {kQuality, std::size(kQuality)}},
+    {"quality", "64 rays, steps of 1 cell that grow with the distance, every pixel, 8 px filter.", {kQuality, std::size(kQuality)}},
 };
 const MethodInfo kInfo{"hybrid", "Hybrid ambient occlusion",
     "Reinbothe, Boubekeur, Alexa: Hybrid Ambient Occlusion, Eurographics 2009 Areas Papers",
@@ -79,8 +86,11 @@ public:
         const uint32_t width = (visible.x + scale - 1) / scale, height = (visible.y + scale - 1) / scale;
         graph::ImageId map = graph.image("hybrid.map", {VK_FORMAT_R16_SFLOAT, width, height});
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
-        const shared::HybridTrace trace{inputs.falloff, sharedOut(values.count("rays"), side), values.count("steps"), scale,
-            std::cos(values["spread"] * 1.5707963f), values["offset"], values["jitter"], kGrain, side};
+        const uint32_t equal = values.count("steps"), octave = values.count("octave");
+        const uint32_t steps = equal ? equal : volumeRaySteps(inputs.volume.volume, inputs.falloff.reach, values["stride"], octave);
+        const shared::HybridTrace trace{inputs.falloff, sharedOut(values.count("rays"), side), steps, scale,
+            std::cos(values["spread"] * 1.5707963f), values["offset"], values["jitter"], kGrain, side, values["stride"], octave,
+            equal ? 1u : 0u};
         graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)])
             .read(inputs.viewBlock)
             .read(inputs.volume.block)
