@@ -21,7 +21,7 @@ void main() {
     if (any(greaterThan(p, last))) return;
     int reach = int(constants.side) / 2;
     float outer = (constants.side & 1u) != 0u ? 1.0 : 0.5;
-    float z = imageLoad(depth, p + guard).x, depths = 0.0, weights = 0.0;
+    float z = imageLoad(depth, p + guard).x, scale = depthForTolerance(view, z), depths = 0.0, weights = 0.0;
     vec3 here = eyePosition(view, vec2(p + guard) + 0.5, z), n = unpackNormal(imageLoad(normals, p + guard).x), sum = vec3(0.0);
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
@@ -29,7 +29,7 @@ void main() {
             float zq = imageLoad(depth, q).x;
             vec3 m = unpackNormal(imageLoad(normals, q).x);
             vec3 there = eyePosition(view, vec2(q) + 0.5, zq);
-            bool same = at + guard == q && (kSimilar ? similar(here, n, z, there, m) : ofSurface(here, n, z, there, m));
+            bool same = at + guard == q && (kSimilar ? similar(here, n, scale, there, m) : ofSurface(here, n, scale, there, m));
             float w = same || (x == 0 && y == 0) ? (abs(x) == reach ? outer : 1.0) * (abs(y) == reach ? outer : 1.0) : 0.0;
             depths += w * zq;
             sum += w * m;

@@ -51,12 +51,12 @@ const Parameter kParameters[] = {
         "between surfaces."},
 };
 const Setting kPaper[] = {{"rays", 32}, {"steps", 8}, {"jitter", 0}, {"filter", 16}, {"filter_range", 1}};
-const Setting kQuality[] = {{"rays", 64}, {"stride", 1}, {"octave", 3}, {"filter", 8}, {"map", 1}};
+const Setting kQuality[] = {{"rays", 64}, {"stride", 1.5f}, {"octave", 3}, {"filter", 8}, {"map", 1}};
 const Preset kPresets[] = {
     {"default", "21 rays, jittered steps of 2 cells that grow with the distance, quarter-area map, 20 px filter.", {}},
     {"paper", "32 rays x 8 equal steps on a quarter-area map, 16 px filter. Use a volume of 256 cells a side.",
         {kPaper, std::size(kPaper)}},
-    {"quality", "64 rays, steps of 1 cell that grow with the distance, every pixel, 8 px filter.", {kQuality, std::size(kQuality)}},
+    {"quality", "64 rays, steps of 1.5 cells that grow with the distance, every pixel, 8 px filter.", {kQuality, std::size(kQuality)}},
 };
 const MethodInfo kInfo{"hybrid", "Hybrid ambient occlusion",
     "Reinbothe, Boubekeur, Alexa: Hybrid Ambient Occlusion, Eurographics 2009 Areas Papers",
