@@ -19,8 +19,8 @@ inline float orthographicDepth(const shared::View& view) {
 
 // The volume block of Frame::volume, without its buffer. Status::invalid with a reason if it describes no volume.
 Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason);
-// The most steps of a ray of shaders/ao/common/volume_rays.glsl: those of a receiver in level 0. reach: metres; stride: cells; octave: log2 of
-// the number of steps an octave.
+// The most steps of a ray of shaders/ao/common/volume_rays.glsl: those of a receiver in level 0. reach: metres; stride: cells;
+// octave: log2 of the number of steps an octave.
 uint32_t volumeRaySteps(const shared::Volume& volume, float reach, float stride, uint32_t octave);
 
 // Linear depth of sky in Inputs::depth, metres; view.skyDepth is at most this.

@@ -11,8 +11,8 @@ class App;
 
 namespace obscura::app {
 
-// Adds --voxels, --voxel-levels, --voxel-size, --voxelizer, --voxel-structure and --voxel-shell to a group of `cli`; parsing fills `into`. Also sets
-// `into.building` to a progress bar.
+// Adds --voxels, --voxel-levels, --voxel-size, --voxelizer, --voxel-structure and --voxel-shell to a group of `cli`; parsing fills
+// `into`. Also sets `into.building` to a progress bar.
 void addVoxelArguments(CLI::App& cli, render::Voxelization& into, const std::string& group);
 
 inline constexpr const char* kVoxelizerNames[] = {"openvdb", "gpu"};

@@ -13,8 +13,8 @@ namespace obscura::render {
 class VoxelRaster {
 public:
     static gpu::Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, VoxelRaster& out);
-    // Rasterises all drawables in the windows of all levels except blended ones. `where`: the windows. `drawables` and `posed` must stay valid until the
-    // graph has been executed.
+    // Rasterises all drawables in the windows of all levels except blended ones. `where`: the windows. `drawables` and `posed` must
+    // stay valid until the graph has been executed.
     graph::BufferId add(graph::Graph& graph, std::span<const Drawable> drawables, const Deform::Posed& posed, const voxel::Change& where,
         bool masked, voxel::Shell shell);
     void forget(const ModelGpu& model) { m_sets.forget(model); }

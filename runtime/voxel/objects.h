@@ -1,5 +1,5 @@
-// Dynamic objects: parts that are animated or whose instance was moved. Each has its own bricks at every level, rasterised again when it has
-// moved. One that is outside of every window has none.
+// Dynamic objects: parts that are animated or whose instance was moved. Each has its own bricks at every level, rasterised again when it
+// has moved. One that is outside of every window has none.
 #pragma once
 
 #include <functional>

@@ -11,8 +11,8 @@ OBSCURA_SHARED_BEGIN
 
 struct Volume {      // places are in cells of level 0, counted from `anchor`
     vec4 rows[3];    // (eye-space point, 1) -> place
-    uvec4 anchor;    // xyz: that cell of the world, signed, a multiple of 2^(levels - 1); w: cells a side, a power of two; 0: a NanoVDB grid
-                     // without an edge
+    uvec4 anchor;    // xyz: that cell of the world, signed, a multiple of 2^(levels - 1); w: cells a side, a power of two; 0: a NanoVDB
+                     // grid without an edge
     vec4 centre;     // xyz: the place in the middle of all levels; w: metres per cell of level 0
     float halfSide;  // a level holds all its cells less than so many of them from the middle, along each axis
     float fade;      // hits lose their weight at the edge of the last level, by so much per cell of level 0

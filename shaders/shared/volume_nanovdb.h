@@ -1,5 +1,5 @@
-// Lookups of shared/volume.h in a NanoVDB grid of type mask instead of dense cubes, for shaders that define VOLUME_NANOVDB. PNanoVDB does the
-// traversal; its accessor caches the nodes of the last lookup, so neighbouring cells are cheap.
+// Lookups of shared/volume.h in a NanoVDB grid of type mask instead of dense cubes, for shaders that define VOLUME_NANOVDB. PNanoVDB does
+// the traversal; its accessor caches the nodes of the last lookup, so neighbouring cells are cheap.
 #ifndef OBSCURA_SHARED_VOLUME_NANOVDB_H
 #define OBSCURA_SHARED_VOLUME_NANOVDB_H
 

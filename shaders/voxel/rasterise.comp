@@ -1,6 +1,7 @@
-// Triangles to the bits of a level of the volume, as runtime/voxel/rasterise.cpp, in single precision. A slack covers the rounding: no cell is lost, and
-// cells that a triangle misses by less than the slack are set too. One invocation draws a small triangle; the workgroup draws a large one,
-// one row per invocation. In: vertices of a primitive, or their posed positions, and indices. Out: bits, set by atomic OR, never cleared.
+// Triangles to the bits of a level of the volume, as runtime/voxel/rasterise.cpp, in single precision. A slack covers the rounding: no cell
+// is lost, and cells that a triangle misses by less than the slack are set too. One invocation draws a small triangle; the workgroup draws
+// a large one, one row per invocation. In: vertices of a primitive, or their posed positions, and indices. Out: bits, set by atomic OR,
+// never cleared.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume.h"

@@ -1,5 +1,6 @@
 // Debug view of the volume: ray-traced from the camera, shaded by the cell's face, with a random grey per cell; or a map of one layer of
-// cells, with outlines of bricks and a cross at the camera. Each place shows the finest level that holds it. In: the volume. Out: an image of the visible size.
+// cells, with outlines of bricks and a cross at the camera. Each place shows the finest level that holds it. In: the volume.
+// Out: an image of the visible size.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant VOLUME_NANOVDB

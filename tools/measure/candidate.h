@@ -10,7 +10,8 @@
 
 namespace obscura::measure {
 
-// A candidate's voxelization, replacing that of the run: settings voxels, voxel_levels, voxel_size, voxelizer, voxel_structure, voxel_shell.
+// A candidate's voxelization, replacing that of the run: settings voxels, voxel_levels, voxel_size, voxelizer, voxel_structure,
+// voxel_shell.
 struct VoxelChoice {
     std::optional<float> cells, levels, cellSize, voxelizer, structure, shell;
     render::Voxelization over(render::Voxelization how) const;

@@ -25,7 +25,7 @@ struct VolumeStep {
     uint level;
 };
 
-// receiver: place; up: normal, unit length in cells; reach: metres; stride: cells; equal: not 0: so many steps of equal length in one level.
+// receiver: place; up: normal, unit length in cells; reach: metres; stride: cells; equal: not 0: so many equal steps in one level.
 VolumeRays volumeRays(Volume v, vec3 receiver, vec3 up, float reach, float lift, float stride, uint octave, uint equal) {
     const float kSlack = 4.0;  // cells, for lift and shift
     VolumeRays r;
@@ -65,7 +65,7 @@ VolumeStep stepOf(VolumeRays r, uint i, float shift) {
 vec3 placeOf(VolumeRays r, VolumeStep s, vec3 ray) { return (r.receiver + ray * s.t) * (1.0 / s.grow) + r.lift; }
 // The same in cells of level 0.
 vec3 placeInWorld(VolumeRays r, VolumeStep s, vec3 ray) { return ldexp(placeOf(r, s, ray), ivec3(int(s.level))); }
-// Where a ray enters the last level, in cells of the receiver's level; 0 if the receiver is inside. Before that, cells are those of elsewhere.
+// Where a ray enters the last level, in cells of the receiver's level; 0 if the receiver is inside. Cells before it are those of elsewhere.
 float entryOf(Volume v, VolumeRays r, vec3 ray) {
     vec3 from = r.receiver + r.lift, middle = ldexp(v.centre.xyz, ivec3(-int(r.level)));
     float half_ = ldexp(v.halfSide, int(r.above));

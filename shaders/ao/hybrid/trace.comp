@@ -44,7 +44,8 @@ void main() {
                                         : vec2(-0.737368878, -0.675490294);
     // An origin in a set cell is next to another surface. Which half of the rays it blocks is unknown, so each ray is half blocked at the
     // origin, and is traced from one cell on.
-    bool outside = hitWeight(volume, receiver) == 0.0, originOccupied = !outside && occupiedAt(volume, rays.receiver + rays.lift, rays.level);
+    bool outside = hitWeight(volume, receiver) == 0.0;
+    bool originOccupied = !outside && occupiedAt(volume, rays.receiver + rays.lift, rays.level);
     float originBlocked = originOccupied ? 0.5 : 0.0, lift = constants.offset * rays.metres;
     float blocked = 0.0, total = 0.0, shift = fract(xi.z + kShift * float(share)), shiftStep = kShift * float(shares);
     for (uint i = share; i < rayCount; i += shares) {

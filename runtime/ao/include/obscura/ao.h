@@ -244,8 +244,8 @@ enum class VolumeStructure : uint8_t {
     // 2^k (c + 1) - 1 of level 0 on each axis and is set if one of them is. Level k holds, modulo `cells`, all its cells less than
     // cells / 2 - 8 of them from the middle of level 0.
     dense,
-    // A NanoVDB grid of type mask. With `cells` 0: its index space counts the cells of the one level, and it has no edge. Else it holds cell
-    // (x, y, z) of level k at ((x modulo cells) + k cells, y modulo cells, z modulo cells).
+    // A NanoVDB grid of type mask. With `cells` 0: its index space counts the cells of the one level, and it has no edge. Else it holds
+    // cell (x, y, z) of level k at ((x modulo cells) + k cells, y modulo cells, z modulo cells).
     nanovdb,
 };
 
