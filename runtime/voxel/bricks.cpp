@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 namespace obscura::voxel {
 namespace {
@@ -29,6 +30,17 @@ uint32_t Brick::count() const {
 Brick& Brick::operator|=(const Brick& other) {
     for (size_t i = 0; i < words.size(); ++i) words[i] |= other.words[i];
     return *this;
+}
+
+void sortUnique(std::vector<glm::ivec3>& places) {
+    std::sort(places.begin(), places.end(),
+        [](const glm::ivec3& a, const glm::ivec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+}
+
+void toNextLevel(std::vector<glm::ivec3>& places) {
+    for (glm::ivec3& place : places) place = atLevel(place, 1);
+    sortUnique(places);
 }
 
 void addOctant(const Brick& fine, const glm::ivec3& octant, Brick& coarse) {

@@ -32,6 +32,9 @@ static_assert(sizeof(Brick) == 64);
 inline glm::ivec3 brickOf(const glm::ivec3& cell) { return {cell.x >> 3, cell.y >> 3, cell.z >> 3}; }
 // The cell or brick of a level that contains a cell or brick of level 0.
 inline glm::ivec3 atLevel(const glm::ivec3& place, uint32_t level) { return {place.x >> level, place.y >> level, place.z >> level}; }
+// Sorts places and removes duplicates; toNextLevel() first replaces them by those of the next level.
+void sortUnique(std::vector<glm::ivec3>& places);
+void toNextLevel(std::vector<glm::ivec3>& places);
 // Sets the cells of a brick of the next level that contain the set cells of its octant; each coordinate of `octant` is 0 or 1.
 void addOctant(const Brick& fine, const glm::ivec3& octant, Brick& coarse);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -41,12 +40,6 @@ BrickSet range(const BrickSet& bricks, size_t first, size_t last) {
     BrickSet result;
     for (size_t i = first; i < last; ++i) result.at(bricks.place(i)) = bricks[i];
     return result;
-}
-
-void sortUnique(std::vector<glm::ivec3>& places) {
-    std::sort(places.begin(), places.end(),
-        [](const glm::ivec3& a, const glm::ivec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
-    places.erase(std::unique(places.begin(), places.end()), places.end());
 }
 
 }  // namespace
@@ -139,8 +132,7 @@ void Resting::drop(uint32_t id, std::vector<glm::ivec3>& changed) {
     }
     changed.insert(changed.end(), places.begin(), places.end());
     for (size_t k = 1; k < m_levels.size(); ++k) {
-        for (glm::ivec3& place : places) place = atLevel(place, 1);
-        sortUnique(places);
+        toNextLevel(places);
         for (const glm::ivec3& place : places) {
             Brick brick;
             for (int i = 0; i < 8; ++i) {

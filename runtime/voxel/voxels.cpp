@@ -4,7 +4,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <tuple>
 
 #include "voxel/objects.h"
 #include "voxel/window.h"
@@ -79,12 +78,9 @@ void Voxels::Impl::reportProgress() {
 void Voxels::Impl::updateWindows(const std::vector<glm::ivec3>& changed, bool all) {
     const glm::ivec3 centre = centreBrick(resting.cellSize(), eye);
     std::vector<glm::ivec3> places = changed;
+    sortUnique(places);
     for (uint32_t k = 0; k < windows.size(); ++k) {
-        if (k > 0)
-            for (glm::ivec3& place : places) place = atLevel(place, 1);
-        std::sort(places.begin(), places.end(),
-            [](const glm::ivec3& a, const glm::ivec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
-        places.erase(std::unique(places.begin(), places.end()), places.end());
+        if (k > 0) toNextLevel(places);
         const glm::ivec3 origin = windowOrigin(options.cells, k, centre);
         if (!options.bits) windows[k].place(origin);
         else
