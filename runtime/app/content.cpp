@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -138,6 +139,45 @@ SceneFile expectScene(const std::string& nameOrPath) {
     SceneFile scene = findScene(nameOrPath);
     if (scene.file.empty()) throw Complaint(fmt::format("--scene {}: its file is missing; {}", scene.info.name, scene.info.howToGet));
     return scene;
+}
+
+namespace {
+
+// Ever longer names of a file: "hall", "hall.glb", "before-hall.glb", "old-before-hall.glb".
+std::string longerName(const SceneFile& scene, size_t parts) {
+    if (scene.named || parts == 0) return scene.info.name;
+    const fs::path path = fs::absolute(scene.file).lexically_normal();
+    std::string name = path.filename().string();
+    fs::path folder = path.parent_path();
+    for (size_t i = 1; i < parts && folder.has_filename(); ++i, folder = folder.parent_path())
+        name = folder.filename().string() + "-" + name;
+    return scene::utf8(name);
+}
+
+}  // namespace
+
+std::vector<SceneFile> expectScenes(const std::vector<std::string>& namesOrPaths) {
+    std::vector<SceneFile> scenes;
+    for (const std::string& name : namesOrPaths) scenes.push_back(expectScene(name));
+    for (size_t i = 0; i < scenes.size(); ++i)
+        for (size_t j = 0; j < i; ++j)
+            if (std::error_code ignored; fs::equivalent(scenes[i].file, scenes[j].file, ignored))
+                throw Complaint(fmt::format("--scene {}: is named twice; leave one out", namesOrPaths[i]));
+    const std::vector<SceneFile> given = scenes;
+    std::vector<size_t> parts(scenes.size(), 0);
+    for (bool all = false; !all;) {
+        all = true;
+        for (size_t i = 0; i < scenes.size(); ++i) scenes[i].info.name = longerName(given[i], parts[i]);
+        std::map<std::string, size_t> uses;
+        for (const SceneFile& scene : scenes) ++uses[scene.info.name];
+        for (size_t i = 0; i < scenes.size(); ++i) {
+            const std::string next = longerName(given[i], parts[i] + 1);
+            if (uses[scenes[i].info.name] < 2 || next == scenes[i].info.name) continue;
+            ++parts[i];
+            all = false;
+        }
+    }
+    return scenes;
 }
 
 namespace {

@@ -56,6 +56,9 @@ std::vector<SceneFile> namedScenes();
 SceneFile findScene(const std::string& nameOrPath);
 // As findScene(), but throws Complaint if the file is missing.
 SceneFile expectScene(const std::string& nameOrPath);
+// The same for several, whose names differ: files of equal names get as many parts of their paths as tell them apart, "before-hall" and
+// "after-hall". A scene that is named twice is a Complaint.
+std::vector<SceneFile> expectScenes(const std::vector<std::string>& namesOrPaths);
 
 // A loaded scene and where it stands in the world.
 struct PlacedScene {

@@ -57,8 +57,8 @@ struct Cell {
 // All shots of a scene. Their cells are measured in turns, round by round.
 class SceneBench {
 public:
-    SceneBench(measure::Machine& machine, const Options& options, const std::string& scene, const std::string& title)
-        : m_machine(machine), m_options(options), m_title(title), m_scene(scene), m_loaded(machine, scene) {
+    SceneBench(measure::Machine& machine, const Options& options, const app::SceneFile& scene, const std::string& title)
+        : m_machine(machine), m_options(options), m_title(title), m_scene(scene), m_loaded(machine, scene, options.what.animation) {
         for (const measure::CameraChoice& camera : options.what.cameras)
             for (const glm::uvec2 size : options.sizes) {
                 measure::Measurement sized = options.what;
@@ -68,9 +68,10 @@ public:
         for (size_t shot = 0; shot < m_shots.size(); ++shot)
             for (const measure::FalloffChoice& falloff : options.what.falloffs)
                 for (const measure::Candidate& candidate : options.what.candidates) m_cells.push_back(cellOf(shot, falloff, candidate));
-        std::string file = m_shots.front().scene;
+        std::string file = scene.info.name;
         for (char& c : file)
             if (!std::isalnum((unsigned char)c) && c != '-') c = '_';
+        if (file != scene.info.name) file += "-" + scene::Hash().add(scene.info.name).hex().substr(0, 8);
         m_file = options.out / "parts" / (file + ".json");
         m_key = key();
         if (!options.again) take();
@@ -139,7 +140,7 @@ private:
             .add(what.guard)
             .add(what.rays.rays)
             .add(what.rays.seed);
-        hash.add(int(what.reference.world)).add(int(what.reference.screen)).add(m_loaded.triangles());
+        hash.add(int(what.reference.world)).add(int(what.reference.screen)).add(m_loaded.triangles()).add(what.animation);
         for (const Cell& cell : m_cells) {
             hash.add(cell.row.name())
                 .add(what.voxels.cells)
@@ -181,14 +182,13 @@ private:
 
     // Flicker over the scene's flythrough, if it has one; the same for all cameras and sizes.
     void flicker() {
-        const app::SceneFile file = app::expectScene(m_scene);
-        if (!file.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); }))
+        if (!m_scene.flythrough || std::all_of(m_cells.begin(), m_cells.end(), [](const Cell& c) { return c.row.flicker.has_value(); }))
             return;
         for (const measure::FalloffChoice& falloff : m_options.what.falloffs) {
             flythrough::Settings settings = *m_options.flicker;
             settings.falloff = falloff;
             flythrough::Flight flight(
-                m_machine, flythrough::findScript(fmt::format("{}@{:g}", file.flythrough->string(), kFlickerStart)), settings);
+                m_machine, flythrough::findScript(fmt::format("{}@{:g}", m_scene.flythrough->string(), kFlickerStart)), settings);
             for (const measure::Candidate& candidate : m_options.what.candidates) {
                 std::optional<Flicker> found;
                 for (Cell& cell : m_cells) {
@@ -245,7 +245,8 @@ private:
 
     measure::Machine& m_machine;
     const Options& m_options;
-    std::string m_title, m_scene;
+    std::string m_title;
+    app::SceneFile m_scene;
     measure::LoadedScene m_loaded;
     std::vector<measure::Shot> m_shots;
     std::vector<Cell> m_cells;
@@ -259,10 +260,11 @@ private:
 Results measure(const Options& options, measure::Machine& machine) {
     const measure::Measurement& what = options.what;
     app::expectFolder(options.out / "parts");
-    std::vector<std::string> scenes = what.scenes;
+    std::vector<std::string> names = what.scenes;
     if (!options.triangles.empty()) app::expectFolder(options.out / "scenes");
-    for (const uint64_t triangles : options.triangles) scenes.push_back(writeBalls(triangles, options.out / "scenes").string());
+    for (const uint64_t triangles : options.triangles) names.push_back(writeBalls(triangles, options.out / "scenes").string());
 
+    const std::vector<app::SceneFile> scenes = app::expectScenes(names);
     Results results;
     results.device = machine.deviceName();
     results.command = options.command;
@@ -272,7 +274,7 @@ Results measure(const Options& options, measure::Machine& machine) {
         results.flickerFrames = options.flicker->length, results.flickerWidth = options.flicker->size.x,
         results.flickerHeight = options.flicker->size.y;
     for (size_t i = 0; i < scenes.size(); ++i) {
-        const std::string title = fmt::format("{} ({}/{})", fs::path(scenes[i]).stem().string(), i + 1, scenes.size());
+        const std::string title = fmt::format("{} ({}/{})", scenes[i].info.name, i + 1, scenes.size());
         const std::vector<Row> rows = SceneBench(machine, options, scenes[i], title).measure();
         results.rows.insert(results.rows.end(), rows.begin(), rows.end());
     }

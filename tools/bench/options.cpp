@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -65,6 +66,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     std::vector<std::string> falloffs{"quadratic:2"}, cameras{"own"}, references{"world", "screen"}, sizes{"640x360"}, triangles;
     std::string flickerSize = "320x180", out = "out/bench";
     uint32_t flickerFrames = 12;
+    float time = 0.0f;
     bool noCache = false;
     using measure::takeAll;
 
@@ -75,6 +77,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "--triangles", triangles, "Generated scenes of about so many triangles, for scaling; instead of --scene, or in addition"));
     takeAll(cli.add_option("--camera", cameras, "own, scene:N, path:FILE@SECONDS, path:@SECONDS, FILE.json; several with commas")
             ->capture_default_str());
+    cli.add_option("--animation", what.animation, "Animation of the scenes: NAME or number, all together, or none")->capture_default_str();
+    auto* timeOption = cli.add_option("--time", time, "Seconds into the animation (default: 0; on a flythrough the path's time)");
     takeAll(cli.add_option("--size", sizes, "WIDTHxHEIGHT in pixels, without guard band; several with commas")->capture_default_str());
     cli.add_option("--guard", what.guard, "Guard band, fraction of each side")->check(CLI::Range(0.0f, 0.5f))->capture_default_str();
     app::addVoxelArguments(cli, what.voxels, cli.option_defaults()->get_group());
@@ -142,13 +146,16 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (!cli.count("--out")) options.out = *check || *renew ? "" : "out/gpu_cost";
     }
     if (!options.from.empty()) {
-        for (const char* option : {"--scene", "--triangles", "--method", "--preset", "--set", "--falloff", "--size", "--camera"})
+        for (const char* option :
+            {"--scene", "--animation", "--time", "--triangles", "--method", "--preset", "--set", "--falloff", "--size", "--camera"})
             if (cli.count(option))
                 throw Complaint(fmt::format("{}: has no effect with --from, which reads an earlier run; leave one of them out", option));
         if (!cli.count("--out")) options.out.clear();  // tables and comparisons need no folder
         return options;
     }
     options.triangles = trianglesOf(triangles);
+    if (*timeOption && !std::isfinite(time)) throw Complaint("--time: must be a finite number of seconds");
+    if (*timeOption) what.time = time;
     if (options.gpuCost.empty() && what.scenes.empty() && options.triangles.empty())
         for (const app::SceneFile& scene : app::namedScenes())
             if (!scene.file.empty()) what.scenes.push_back(scene.info.name);

@@ -144,7 +144,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     }
     for (const std::string& flythrough : flythroughs) options.scripts.push_back(findScript(flythrough));
     if (cameras.empty()) cameras = {"orbit"};
-    for (const std::string& scene : scenes)
+    for (const app::SceneFile& scene : app::expectScenes(scenes))
         for (const std::string& camera : cameras) options.scripts.push_back(sceneScript(scene, camera, animation));
     options.candidates = measure::candidates(chosen.methods, chosen.presets, chosen.allSets());
     for (const std::string& filter : filters) options.filters.push_back(&measure::resolvePreset("--modes " + filter, filter));

@@ -149,10 +149,9 @@ Script findScript(const std::string& name) {
         fmt::format("--flythrough {}: no such flythrough; {}, or the path of a recorded FILE.json", name, app::choices(name, names)));
 }
 
-Script sceneScript(const std::string& scene, const std::string& view, const std::string& animation) {
-    const app::SceneFile file = app::expectScene(scene);
+Script sceneScript(const app::SceneFile& file, const std::string& view, const std::string& animation) {
     Script script;
-    script.scene = scene;
+    script.scene = file.named ? file.info.name : file.file.string();
     script.view = view;
     script.animation = animation;
     std::string name = view;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/content.h"
 #include "scene/camera.h"
 
 namespace obscura::flythrough {
@@ -42,8 +43,8 @@ std::vector<Script> scripts();
 // names. The files of its scene and path exist.
 Script findScript(const std::string& name);
 
-// Any scene, by name or as a glTF file, seen by `view`: "orbit", or a camera as measure::cameraOf() reads it. Throws app::Complaint.
-Script sceneScript(const std::string& scene, const std::string& view, const std::string& animation);
+// Any scene, by its name or a glTF file, seen by `view`: "orbit", or a camera as measure::cameraOf() reads it. Throws app::Complaint.
+Script sceneScript(const app::SceneFile& scene, const std::string& view, const std::string& animation);
 
 // A loaded script.
 class Stage {

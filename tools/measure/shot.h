@@ -35,7 +35,7 @@ struct Shot {
 // A loaded scene with its GPU data. Its shots are valid until the machine makes another renderer. Throws app::Complaint or scene::Error.
 class LoadedScene {
 public:
-    LoadedScene(Machine& machine, const std::string& nameOrPath, const std::string& animation = "all");
+    LoadedScene(Machine& machine, const app::SceneFile& file, const std::string& animation = "all");
     // Draws the frame once; `what` gives size, guard band, time and voxels. Empty if a default camera does not exist in the scene.
     std::optional<Shot> shot(const Measurement& what, const CameraChoice& camera);
     size_t triangles() const { return m_world->triangleCount(); }

@@ -110,16 +110,14 @@ truth::CapturedFrame capturedFrame(glm::uvec2 visible, const scene::Camera& came
 }
 
 void expectScenes(const Measurement& what) {
-    for (const std::string& scene : what.scenes) {
-        const app::SceneFile file = app::expectScene(scene);
+    for (const app::SceneFile& file : app::expectScenes(what.scenes))
         for (const CameraChoice& camera : what.cameras) cameraFor(camera, file, nullptr, 0.0f, what.usualCameras);
-    }
 }
 
 size_t shotCount(const Measurement& what) { return what.capture.empty() ? what.scenes.size() * what.cameras.size() : 1; }
 
-LoadedScene::LoadedScene(Machine& machine, const std::string& name, const std::string& animation)
-    : m_machine(machine), m_file(app::expectScene(name)), m_world(std::make_shared<scene::World>()) {
+LoadedScene::LoadedScene(Machine& machine, const app::SceneFile& file, const std::string& animation)
+    : m_machine(machine), m_file(file), m_world(std::make_shared<scene::World>()) {
     const double begun = app::now();
     app::PlacedScene placed = app::loadScene(m_file, animation);
     m_world->add(std::move(placed.instance));
@@ -157,8 +155,8 @@ std::optional<Shot> LoadedScene::shot(const Measurement& what, const CameraChoic
 }
 
 void sceneShots(Machine& machine, const Measurement& what, const TakeShot& take) {
-    for (const std::string& name : what.scenes) {
-        LoadedScene scene(machine, name, what.animation);
+    for (const app::SceneFile& file : app::expectScenes(what.scenes)) {
+        LoadedScene scene(machine, file, what.animation);
         for (const CameraChoice& choice : what.cameras)
             if (auto shot = scene.shot(what, choice)) take(*shot);
     }
