@@ -41,8 +41,10 @@ graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame
     bool made = true;
     const auto import = [&](const char* name, const ImageView& v, VkExtent2D size, Crop::Texel texel) {
         const graph::ImageId whole = importView(graph, name, v, extentOf(frame, size));
-        if (frame.origin.x == 0 && frame.origin.y == 0) return whole;
-        const graph::ImageId part = context.crop.add(*context.device, context.shaders, graph, whole, originOf(frame, size), size, texel);
+        const bool multisampled = v.samples > VK_SAMPLE_COUNT_1_BIT;
+        if (frame.origin.x == 0 && frame.origin.y == 0 && !multisampled) return whole;
+        const graph::ImageId part =
+            context.crop.add(*context.device, context.shaders, graph, whole, originOf(frame, size), size, texel, 1, false, multisampled);
         made = made && part;
         return part;
     };

@@ -29,13 +29,16 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     if (!desc.memory.allocate != !desc.memory.free) return refuse("memory has one of its two functions; set both or neither");
     if (desc.format != VisibilityFormat::r16f && desc.format != VisibilityFormat::r8) return refuse("format is neither r16f nor r8");
 
+    if (!desc.framesInFlight)
+        return refuse("framesInFlight is 0; it is the number of frames that you record before you wait for the first, 1 or more");
+
     gpu::AdoptedDevice adopted;
     adopted.instance = desc.instance;
     adopted.physicalDevice = desc.physicalDevice;
     adopted.device = desc.device;
     adopted.queueFamily = desc.queueFamily;
     adopted.getInstanceProcAddr = desc.getInstanceProcAddr;
-    adopted.framesInFlight = desc.framesInFlight ? desc.framesInFlight : 1;
+    adopted.framesInFlight = desc.framesInFlight;
     adopted.allocator = desc.allocator;
     adopted.memory = memoryOf(desc.memory);
     if (desc.log)

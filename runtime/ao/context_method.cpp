@@ -50,6 +50,9 @@ Status choose(Context& context, const char* id, const MethodSettings& settings) 
             return invalid(
                 fmt::format("{} has no parameter '{}'; it has {}", info->id, orNull(setting.id), listed(info->parameters, idOf)));
     const Falloff& falloff = settings.falloff;
+    if (size_t(falloff.kind) >= falloffKinds().size())
+        return invalid(fmt::format("MethodSettings::falloff.kind is {}; there are {}", uint32_t(falloff.kind),
+            listed(falloffKinds(), [](const char* kind) { return kind; })));
     if (!(falloff.length > 0.0f) || !std::isfinite(reach(falloff)))
         return invalid(fmt::format("MethodSettings::falloff.length is {}; it must be finite and above 0", falloff.length));
     if (falloff.kind == FalloffKind::ramp && !(falloff.end > falloff.length))

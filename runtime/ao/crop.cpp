@@ -5,20 +5,23 @@
 namespace obscura::ao {
 
 graph::ImageId Crop::add(gpu::Device& device, const gpu::ShaderLibrary& shaders, graph::Graph& graph, graph::ImageId source,
-    VkOffset2D origin, VkExtent2D size, Texel texel) {
+    VkOffset2D origin, VkExtent2D size, Texel texel, uint32_t stride, bool half, bool multisampled) {
     constexpr struct {
         const char* shader;
         VkFormat format;
     } kKinds[] = {{"ao/common/crop.comp", VK_FORMAT_R32G32_SFLOAT}, {"ao/common/crop.comp:FOUR", VK_FORMAT_R32G32B32A32_SFLOAT},
-        {"ao/common/crop.comp:INTEGER", VK_FORMAT_R32_UINT}};
-    const auto& kind = kKinds[size_t(texel)];
-    gpu::Program& program = m_programs[size_t(texel)];
+        {"ao/common/crop.comp:INTEGER", VK_FORMAT_R32_UINT}, {"ao/common/crop.comp:MULTISAMPLE", VK_FORMAT_R32G32_SFLOAT},
+        {"ao/common/crop.comp:FOUR,MULTISAMPLE", VK_FORMAT_R32G32B32A32_SFLOAT},
+        {"ao/common/crop.comp:INTEGER,MULTISAMPLE", VK_FORMAT_R32_UINT}};
+    const size_t index = size_t(texel) + (multisampled ? 3 : 0);
+    const auto& kind = kKinds[index];
+    gpu::Program& program = m_programs[index];
     if (!program && gpu::Program::compute(device, shaders, kind.shader, {}, program) != gpu::Status::ok) return {};
     const graph::ImageId part = graph.image("cropped", {kind.format, size.width, size.height});
     graph.pass("prepare.crop", program)
         .read(source)
         .write(part)
-        .constants(shared::Crop{{origin.x, origin.y}})
+        .constants(shared::Crop{{origin.x, origin.y}, int32_t(stride), half ? 1 : 0})
         .dispatch(size.width, size.height);
     return part;
 }

@@ -1,4 +1,4 @@
-// Copies a part of a host's image into an image of its own, since methods read images from their upper left pixel on.
+// Copies a part of a host's image into an image of its own, since methods read images of one sample from their upper left pixel on.
 #pragma once
 
 #include "ao/method.h"
@@ -8,12 +8,13 @@ namespace obscura::ao {
 class Crop {
 public:
     enum class Texel : uint8_t { floats2, floats4, integer };
-    // Adds a pass that copies `size` pixels from `origin` on. No image, logged: its pipeline cannot be made.
+    // Adds a pass that copies `size` pixels, every `stride`th from `origin` on, each way. `half`: the source has a texel for every other
+    // pixel. `multisampled`: the first sample of each is taken. No image, logged: its pipeline cannot be made.
     graph::ImageId add(gpu::Device& device, const gpu::ShaderLibrary& shaders, graph::Graph& graph, graph::ImageId source,
-        VkOffset2D origin, VkExtent2D size, Texel texel);
+        VkOffset2D origin, VkExtent2D size, Texel texel, uint32_t stride = 1, bool half = false, bool multisampled = false);
 
 private:
-    gpu::Program m_programs[3];  // by Texel, made on first use
+    gpu::Program m_programs[6];  // by Texel, the first three of one sample; made on first use
 };
 
 }  // namespace obscura::ao

@@ -80,7 +80,7 @@ Status checkFrame(const Context& context, const Frame& frame, bool forecast, sha
     const auto invalid = [&](const std::string& line) { return refuse(context, Status::invalid, line); };
     const char* reason = nullptr;
     if (viewOf(frame, view, reason) != Status::ok) return invalid(reason);
-    if (!allFinite(frame.eyeFromWorld)) return invalid("Frame::eyeFromWorld holds a value that is not finite");
+    if ((reason = unfitEyeFromWorld(frame.eyeFromWorld))) return invalid(fmt::format("Frame::eyeFromWorld {}", reason));
     if (!allFinite(frame.motionScale)) return invalid("Frame::motionScale holds a value that is not finite");
     if (!allFinite(frame.jitter)) return invalid("Frame::jitter holds a value that is not finite");
     if (std::isnan(frame.skyDepth)) return invalid("Frame::skyDepth is not a number");
@@ -89,6 +89,11 @@ Status checkFrame(const Context& context, const Frame& frame, bool forecast, sha
         return refuse(context, Status::unsupported,
             fmt::format("Frame::size is {} x {}; this device allows {} a side", frame.size.width, frame.size.height, most));
     const GivenImages given = imagesOf(frame, forecast);
+    if (given.motion && (frame.motionScale[0] == 0.0f || frame.motionScale[1] == 0.0f))
+        return invalid(
+            fmt::format("Frame::motionScale is ({}, {}); it takes Frame::motion to pixels: for motion in UV it is the image's "
+                        "size, for motion in pixels 1",
+                frame.motionScale[0], frame.motionScale[1]));
     if (given.second && !given.thickness)
         return invalid("Frame::layers.second is given without Frame::layers.thickness; give both, or thickness alone");
     const auto isReduced = [&](uint32_t side) {

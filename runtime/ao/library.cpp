@@ -23,7 +23,8 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 }  // namespace
 
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders) {
-    m_valid = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
+    m_valid = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok &&
+              Reduction::create(device, shaders, m_reduction) == Status::ok && Controls::create(device, shaders, m_controls) == Status::ok;
 }
 
 Library::~Library() = default;
@@ -76,17 +77,24 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     });
     Method& method = *methodOf(values, falloff.kind);
     const MethodEntry& entry = registry()[values.index()];
-    graph::ImageId visibility = method.add(graph, inputs, values);
+    const uint32_t scale = values.info().needs ? 1u << values.count("scale") : 1;
+    const Inputs reduced = scale > 1 ? m_reduction.reduce(m_device, m_shaders, graph, inputs, scale) : inputs;
+    if (!reduced.depth) return {};
+    graph::ImageId visibility = method.add(graph, reduced, values);
     const bool tracesItself = entry.needs && (entry.needs(values) & kVolume);
     if (visibility && values.has("offscreen") && OffScreen(values.count("offscreen")) != OffScreen::off && !tracesItself)
         visibility = m_offScreen.at(falloff.kind)
-                         ->add(graph, inputs, visibility, method.blocking(inputs, values),
+                         ->add(graph, reduced, visibility, method.blocking(reduced, values),
                              {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
     if (!visibility || !values.info().needs) return {visibility, inputs};
+    if (scale > 1) visibility = m_reduction.enlarge(graph, inputs, reduced, scale, visibility);
     TemporalSettings temporal;
     temporal.history = values["temporal"];
     temporal.clip = values["temporal_clip"];
-    return {m_temporal.add(graph, inputs, visibility, temporal, discard, "temporal"), inputs};
+    visibility = m_temporal.add(graph, inputs, visibility, temporal, discard, "temporal");
+    ControlSettings controls{values["intensity"], values["power"], values["floor"], values["fade_from"], values["fade_to"]};
+    if (entry.appliesPower) controls.power = 1.0f, controls.floor = 0.0f;
+    return {m_controls.add(graph, inputs, visibility, controls), inputs};
 }
 
 }  // namespace obscura::ao

@@ -6,9 +6,11 @@
 #include <memory>
 #include <utility>
 
+#include "ao/controls.h"
 #include "ao/method.h"
 #include "ao/offscreen.h"
 #include "ao/prepare.h"
+#include "ao/reduction.h"
 #include "ao/temporal.h"
 
 namespace obscura::ao {
@@ -37,6 +39,8 @@ private:
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
     Prepare m_prepare;
+    Reduction m_reduction;
+    Controls m_controls;
     std::map<FalloffKind, std::unique_ptr<OffScreenPass>> m_offScreen;  // those that values have asked for
     Temporal m_temporal;
     std::map<std::pair<size_t, FalloffKind>, std::unique_ptr<Method>> m_methods;  // by registry order; null: could not be made

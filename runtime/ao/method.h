@@ -74,7 +74,8 @@ struct MethodEntry {
     std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff);
     // Needs of these values beyond the table's; may be null.
     uint32_t (*needs)(const Values& values) = nullptr;
-    bool perFalloff = true;  // pipelines contain the kind of falloff (falloffConstant()): one object for each kind
+    bool appliesPower = false;  // the method applies `power` and `floor` itself, before its blur
+    bool perFalloff = true;     // pipelines contain the kind of falloff (falloffConstant()): one object for each kind
 };
 std::span<const MethodEntry> registry();
 

@@ -16,14 +16,24 @@ namespace obscura::ao {
 
 namespace {
 
-// Parameters of every method: of the temporal pass that the library adds after it.
+// Parameters of every method, of passes that the library adds before and after it: resolution, history, controls.
+const char* const kScales[] = {"full", "half", "quarter"};
 const Parameter kShared[] = {
+    {"scale", "", 0, 2, 0, true, {kScales, 3},
+        "Resolution that the method works at, each way; the result is brought back to all pixels along surfaces. Half costs a quarter; "
+        "thin "
+        "things lose detail first."},
     {"temporal", "", 0, 0.98f, 0, false, {},
         "Largest weight of the reprojected history; samples then rotate from frame to frame. 0: off. Higher is calmer and reacts more "
         "slowly; needs motion vectors."},
     {"temporal_clip", "sd", 0, 8, TemporalSettings{}.clip, false, {},
         "Clamps history to this many standard deviations of its neighbourhood; 0 turns clamping off. Lower flickers more, higher lets "
         "moved occluders leave trails."},
+    {"intensity", "", 0, 4, 1, false, {}, "Factor on obscurance. 1: as computed; above, creases turn black early."},
+    {"power", "", 0.25f, 8, 1, false, {}, "Exponent on visibility. 1: as computed; higher is darker, in creases most."},
+    {"floor", "", 0, 1, 0, false, {}, "Lowest visibility. 0: creases may turn black."},
+    {"fade_from", "m", 0, 10000, 0, false, {}, "Distance along the view from which on obscurance fades, if `fade_to` is above 0."},
+    {"fade_to", "m", 0, 10000, 0, false, {}, "Distance along the view from which on all is open. 0: obscurance does not fade."},
 };
 
 const Setting kRaw[] = {{"denoise", 0}, {"blur", 0}, {"filter", 0}, {"temporal", 0}};
@@ -49,15 +59,24 @@ const Parameter kOffScreenParameters[] = {
 
 bool isScreenSpace(const MethodInfo& info) { return info.needs && !(info.needs & kVolume); }
 
-// A method's own parameters, followed by the shared ones.
+// A method's own parameters and presets, followed by the shared ones.
 struct Composed {
     std::vector<Parameter> parameters;
+    std::vector<Preset> presets;
+    std::vector<Setting> half;  // of the preset
     MethodInfo info;
     explicit Composed(const MethodInfo& own) : info(own) {
         parameters.assign(own.parameters.begin(), own.parameters.end());
         if (isScreenSpace(own)) parameters.insert(parameters.end(), std::begin(kOffScreenParameters), std::end(kOffScreenParameters));
         if (own.needs) parameters.insert(parameters.end(), std::begin(kShared), std::end(kShared));
         info.parameters = {parameters.data(), parameters.size()};
+        presets.assign(own.presets.begin(), own.presets.end());
+        if (own.needs) {
+            half.assign(presets[0].settings.begin(), presets[0].settings.end());
+            half.push_back({"scale", 1});
+            presets.push_back({"half", "default at half the resolution, each way.", {half.data(), half.size()}});
+        }
+        info.presets = {presets.data(), presets.size()};
     }
 };
 

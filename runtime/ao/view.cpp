@@ -22,6 +22,8 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
         if (!std::isfinite(p[i])) return fail("Frame::projection holds a value that is not finite");
     if (p[0] == 0.0f || p[5] == 0.0f) return fail("Frame::projection scales x or y to 0");
     const bool perspective = p[11] != 0.0f;
+    if (perspective && (p[15] != 0.0f || (std::fabs(p[14]) == 1.0f && std::fabs(p[11]) != 1.0f)))
+        return fail("Frame::projection is stored by rows: transpose it (ao.h, Space)");
     if (perspective && p[11] > 0.0f)
         return fail("Frame::projection looks down +z, eye space looks down -z: negate its third column (ao.h, Space)");
     if (!perspective && (p[15] == 0.0f || p[10] == 0.0f)) return fail("Frame::projection is neither perspective nor orthographic");
@@ -54,6 +56,26 @@ Status viewOf(const Frame& frame, shared::View& view, const char*& reason) {
                                                                                : farPlane * 0.9999f);
     view.frame = uint32_t(frame.index);
     return Status::ok;
+}
+
+const char* unfitEyeFromWorld(const float m[16]) {
+    constexpr double kTolerance = 1e-3;
+    for (int i = 0; i < 16; ++i)
+        if (!std::isfinite(m[i])) return "holds a value that is not finite";
+    if (m[3] != 0.0f || m[7] != 0.0f || m[11] != 0.0f || m[15] != 1.0f)
+        return "does not end in the row 0 0 0 1: if it is stored by rows, transpose it";
+    const auto dot = [m](int a, int b) {
+        return double(m[4 * a]) * m[4 * b] + double(m[4 * a + 1]) * m[4 * b + 1] + double(m[4 * a + 2]) * m[4 * b + 2];
+    };
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < a; ++b)
+            if (std::fabs(dot(a, b)) > kTolerance * std::sqrt(dot(a, a) * dot(b, b))) return "shears; it must be rigid";
+    for (int a = 0; a < 3; ++a)
+        if (std::fabs(dot(a, a) - 1.0) > kTolerance)
+            return "scales; it must be rigid: take the scale out, and lengths of the falloff in units of the depth";
+    const double turned = m[0] * (double(m[5]) * m[10] - double(m[6]) * m[9]) - m[4] * (double(m[1]) * m[10] - double(m[2]) * m[9]) +
+                          m[8] * (double(m[1]) * m[6] - double(m[2]) * m[5]);
+    return turned < 0.0 ? "mirrors; eye space is right-handed: negate its third row if yours looks down +z (ao.h, Space)" : nullptr;
 }
 
 Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason) {

@@ -313,6 +313,50 @@ TEST_F(Faulty, missingDeviceSupportIsNamed) {
     recover("hbao", "all of it");
 }
 
+// check() names each feature that a host forgot, before its device is made.
+TEST_F(Faulty, checkNamesWhatADeviceLacks) {
+    const float priority = 1.0f;
+    const VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, m_device.queueFamily(), 1, &priority};
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceFeatures features{};
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &v13};
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &features;
+    m_desc.device = VK_NULL_HANDLE;
+    const auto said = [&](Status expected, std::vector<std::string> words) {
+        m_host.lines.clear();
+        EXPECT_EQ(check(m_desc, info), expected) << m_host.allSaid();
+        EXPECT_EQ(m_host.lines.size(), words.size()) << m_host.allSaid();
+        for (const std::string& word : words) EXPECT_TRUE(m_host.said(word)) << word << "\n" << m_host.allSaid();
+    };
+    said(Status::invalid,
+        {"synchronization2 is not enabled", "maintenance4 is not enabled", "shaderStorageImageExtendedFormats is not enabled"});
+    v13.synchronization2 = features.shaderStorageImageExtendedFormats = VK_TRUE;
+    said(Status::invalid, {"maintenance4 is not enabled"});
+    v13.maintenance4 = VK_TRUE;
+    said(Status::ok, {});
+    // The same features in structures of their own.
+    VkPhysicalDeviceMaintenance4Features four{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES, nullptr, VK_TRUE};
+    VkPhysicalDeviceSynchronization2Features two{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, &four, VK_TRUE};
+    VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &two, features};
+    info.pNext = &all;
+    info.pEnabledFeatures = nullptr;
+    said(Status::ok, {});
+    m_desc.queueFamily = 99;
+    said(Status::invalid, {"DeviceDesc::queueFamily is 99"});
+    m_desc.queueFamily = m_device.queueFamily();
+    info.queueCreateInfoCount = 0;
+    said(Status::invalid, {"makes no queue"});
+    info.queueCreateInfoCount = 1;
+    Faults::edit = [](const char* name, void* answer) {
+        if (!std::strcmp(name, "GetPhysicalDeviceFeatures2"))
+            static_cast<VkPhysicalDeviceVulkan13Features*>(static_cast<VkPhysicalDeviceFeatures2*>(answer)->pNext)->synchronization2 =
+                VK_FALSE;
+    };
+    said(Status::unsupported, {"lacks the feature VkPhysicalDeviceVulkan13Features::synchronization2"});
+}
+
 // Null handles, images of a wrong format or too small, numbers that are not finite.
 TEST_F(Faulty, invalidInputNamesItsField) {
     prepare("hbao");
@@ -330,6 +374,7 @@ TEST_F(Faulty, invalidInputNamesItsField) {
     desc("instance", [](DeviceDesc& d) { d.instance = VK_NULL_HANDLE; });
     desc("physicalDevice", [](DeviceDesc& d) { d.physicalDevice = VK_NULL_HANDLE; });
     desc("device", [](DeviceDesc& d) { d.device = VK_NULL_HANDLE; });
+    desc("framesInFlight", [](DeviceDesc& d) { d.framesInFlight = 0; });
     desc("getInstanceProcAddr", [](DeviceDesc& d) { d.getInstanceProcAddr = nullptr; });
     EXPECT_EQ(create(m_desc, nullptr), Status::invalid);
     EXPECT_EQ(record(nullptr, VK_NULL_HANDLE, m_large).status, Status::invalid);
@@ -342,6 +387,9 @@ TEST_F(Faulty, invalidInputNamesItsField) {
     MethodSettings settings;
     settings.settings.count = 1;
     named("MethodSettings::settings", setMethod(m_host.context, "hbao", settings));
+    settings = {};
+    settings.falloff.kind = FalloffKind(17);
+    named("MethodSettings::falloff.kind is 17; there are exponential, linear", setMethod(m_host.context, "hbao", settings));
     settings = {};
     settings.preset = nullptr;
     named("preset", setMethod(m_host.context, "hbao", settings));
@@ -386,6 +434,37 @@ TEST_F(Faulty, invalidInputNamesItsField) {
     for (int i = 0; i < 16; ++i) frame("projection", [&](Frame& f) { f.projection[i] = std::nanf(""); });
     frame("projection", [&](Frame& f) { std::fill(std::begin(f.projection), std::end(f.projection), 0.0f); });
     frame("projection", [&](Frame& f) { f.projection[11] = 1.0f; });
+    const auto transpose = [](float* m) {
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < a; ++b) std::swap(m[4 * a + b], m[4 * b + a]);
+    };
+    frame("projection is stored by rows", [&](Frame& f) {  // from 0.1 m to 100 m
+        const float rows[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.001001f, -0.1001001f, 0, 0, -1, 0};
+        std::copy(std::begin(rows), std::end(rows), f.projection);
+    });
+    frame("projection is stored by rows", [&](Frame& f) {  // infinite, reversed
+        const float rows[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0.1f, 0, 0, -1, 0};
+        std::copy(std::begin(rows), std::end(rows), f.projection);
+    });
+    frame("projection is stored by rows", [&](Frame& f) {  // orthographic, from 0.1 m to 100 m
+        const float rows[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -0.01f, -0.001f, 0, 0, 0, 1};
+        std::copy(std::begin(rows), std::end(rows), f.projection);
+    });
+    frame("eyeFromWorld scales", [&](Frame& f) {
+        for (int i = 0; i < 12; ++i) f.eyeFromWorld[i] *= 1.01f;
+    });
+    frame("eyeFromWorld mirrors", [&](Frame& f) {
+        for (int i = 0; i < 4; ++i) f.eyeFromWorld[4 * i + 2] *= -1.0f;
+    });
+    frame("eyeFromWorld shears", [&](Frame& f) {
+        const float sheared[] = {1, 0, 0, 0, 0.1f, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        std::copy(std::begin(sheared), std::end(sheared), f.eyeFromWorld);
+    });
+    frame("eyeFromWorld does not end in the row 0 0 0 1", [&](Frame& f) {
+        f.eyeFromWorld[12] = 3.0f;
+        transpose(f.eyeFromWorld);
+    });
+    frame("motionScale is (0, 1)", [&](Frame& f) { f.motionScale[0] = 0.0f; });
     for (int i = 0; i < 16; ++i) frame("eyeFromWorld", [&](Frame& f) { f.eyeFromWorld[i] = INFINITY; });
     for (int i = 0; i < 2; ++i) frame("motionScale", [&](Frame& f) { f.motionScale[i] = std::nanf(""); });
     frame("skyDepth", [&](Frame& f) { f.skyDepth = std::nanf(""); });

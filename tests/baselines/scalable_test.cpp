@@ -20,7 +20,7 @@ TEST_F(Scalable, planesAreOpen) {
 TEST_F(Scalable, equalsThePublishedSumBesideAWall) {
     const Room room = depthFrameOf(floorAndWall());
     const double radius = 2.0 / 3.0 * 35.0 / 16.0, bias = 0.01;
-    const Picture picture = run(room, values({{"samples", 100}, {"turns", 27}, {"denoise", 0}, {"intensity", 0.5f}}), "quadratic:1");
+    const Picture picture = run(room, values({{"samples", 100}, {"turns", 27}, {"denoise", 0}, {"sigma", 0.5f}}), "quadratic:1");
     int rows = 0;
     for (uint32_t y = room.guard; y < room.height - room.guard; ++y) {
         const glm::vec3 p = pointAt(room, 100, y);
@@ -44,10 +44,10 @@ TEST_F(Scalable, equalsThePublishedSumBesideAWall) {
     EXPECT_GE(rows, 2);
 }
 
-TEST_F(Scalable, intensityScalesObscurance) {
+TEST_F(Scalable, sigmaScalesObscurance) {
     const Room room = depthFrameOf(floorAndWall());
-    const double once = mean(run(room, values({{"intensity", 0.1f}, {"denoise", 0}}), "quadratic:1")),
-                 twice = mean(run(room, values({{"intensity", 0.2f}, {"denoise", 0}}), "quadratic:1"));
+    const double once = mean(run(room, values({{"sigma", 0.1f}, {"denoise", 0}}), "quadratic:1")),
+                 twice = mean(run(room, values({{"sigma", 0.2f}, {"denoise", 0}}), "quadratic:1"));
     EXPECT_NEAR(twice, 2.0 * once, 0.03 * once);
 }
 

@@ -6,8 +6,33 @@ OBSCURA_SHARED_BEGIN
 
 struct Crop {  // crop.comp
     ivec2 origin;  // px
+    int stride;    // px of the source per px of the part
+    int shift;     // 1: the source has a texel for every other pixel
 };
-OBSCURA_SHARED_SIZE(Crop, 8);
+OBSCURA_SHARED_SIZE(Crop, 16);
+
+struct Reduce {  // reduce.comp
+    ivec2 first;  // px of the frame that reduced pixel 0 is
+    int scale;    // px of the frame per reduced pixel
+    int unused;
+};
+OBSCURA_SHARED_SIZE(Reduce, 16);
+
+struct Enlarge {  // enlarge.comp
+    vec2 chosen;     // px of the first visible block that its reduced pixel is
+    float perScale;  // 1 / scale
+    float unused;
+};
+OBSCURA_SHARED_SIZE(Enlarge, 16);
+
+struct Controls {  // controls.comp
+    float intensity;  // factor on obscurance
+    float power;      // exponent on visibility
+    float lowest;     // visibility
+    float fadeTo;     // linear depth from which on all is open, metres
+    float perFade;    // 1 / (depth over which obscurance fades)
+};
+OBSCURA_SHARED_SIZE(Controls, 20);
 
 struct Linearize {  // linearize.comp
     uint linear;  // 1: the source has linear depth already

@@ -188,6 +188,10 @@ struct DeviceDesc {
     void* logUser = nullptr;                                                 // passed to log()
 };
 
+// Whether create() can adopt a device that vkCreateDevice() makes with `info`: its features, as pEnabledFeatures or in the chain, and
+// what the physical device supports. One log line for each thing that is missing says what to do. Of `desc`, `device` may be null.
+OBSCURA_API Result check(const DeviceDesc& desc, const VkDeviceCreateInfo& info) noexcept;
+
 // A device and the method set on it; opaque.
 struct Context;
 OBSCURA_API Result create(const DeviceDesc& desc, Context** context) noexcept;  // sets the method `hbao`; *context is null unless ok
@@ -208,12 +212,13 @@ OBSCURA_API Result setMethod(Context* context, const char* id, const MethodSetti
 
 // An input image.
 struct ImageView {
-    VkImage image = VK_NULL_HANDLE;                    // yours; valid until the GPU has finished the frame
-    VkImageView view = VK_NULL_HANDLE;                 // 2D, one mip and layer; of depth formats the depth aspect only
-    VkFormat format = VK_FORMAT_UNDEFINED;             // of the view
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // of that mip and layer, on entry and on return; not UNDEFINED
-    uint32_t mip = 0;                                  // of `image`, which the view shows
-    uint32_t layer = 0;                                // of `image`, which the view shows
+    VkImage image = VK_NULL_HANDLE;                         // yours; valid until the GPU has finished the frame
+    VkImageView view = VK_NULL_HANDLE;                      // 2D, one mip and layer; of depth formats the depth aspect only
+    VkFormat format = VK_FORMAT_UNDEFINED;                  // of the view
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;       // of that mip and layer, on entry and on return; not UNDEFINED
+    uint32_t mip = 0;                                       // of `image`, which the view shows
+    uint32_t layer = 0;                                     // of `image`, which the view shows
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  // of `image`; above 1, sample 0 of each pixel is copied and read
 };
 
 // What a depth image holds.

@@ -36,7 +36,7 @@ const char* const kWeightings[] = {"horizon", "arcs"};
 const Parameter kParameters[] = {
     kSlices,
     kSliceSteps,
-    {"radius_scale", "", 0.3f, 3, 1.457f, false, {},
+    {"radius_scale", "", 0.3f, 3, 1, false, {},
         "Factor on the falloff's length, which makes up for occluders that samples miss. Too low: too bright; too high: too dark far from "
         "creases."},
     {"weighting", "", 0, 1, 0, true, {kWeightings, 2},
@@ -44,19 +44,23 @@ const Parameter kParameters[] = {
         "is weighted by the falloff."},
     kSliceAxis,
     kSliceMipOffset,
-    {"power", "", 0.5f, 5, 2.2f, false, {}, "Exponent on visibility, fitted by XeGTAO to ray tracing. Higher is darker."},
-    {"floor", "", 0, 1, 0.03f, false, {}, "Lowest visibility. 0: creases may turn black."},
     kDepthLayers,
     kSheet,
     kSliceDenoise,
 };
-const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"radius_scale", 1}, {"weighting", 1}, {"axis", 1}, {"power", 1.3f}, {"floor", 0}};
+// What XeGTAO fitted to ray tracing, for its presets.
+constexpr Setting kRadius{"radius_scale", 1.457f}, kPower{"power", 2.2f}, kFloor{"floor", 0.03f};
+const Setting kHigh[] = {kRadius, kPower, kFloor};
+const Setting kLow[] = {{"slices", 1}, {"steps", 2}, kRadius, kPower, kFloor};
+const Setting kMedium[] = {{"slices", 2}, {"steps", 2}, kRadius, kPower, kFloor};
+const Setting kUltra[] = {{"slices", 9}, kRadius, kPower, kFloor};
+const Setting kTuned[] = {{"slices", 1}, {"steps", 9}, {"weighting", 1}, {"axis", 1}, {"power", 1.3f}};
 const Preset kPresets[] = {
-    {"default", "3 slices x 3 steps per side: XeGTAO's high.", {}},
-    {"low", "1 slice x 2 steps: XeGTAO's low.", {kSlicesLow, std::size(kSlicesLow)}},
-    {"medium", "2 slices x 2 steps: XeGTAO's medium.", {kSlicesMedium, std::size(kSlicesMedium)}},
-    {"high", "3 slices x 3 steps: XeGTAO's high.", {}},
-    {"ultra", "9 slices x 3 steps: XeGTAO's ultra.", {kSlicesUltra, std::size(kSlicesUltra)}},
+    {"default", "3 slices x 3 steps per side: XeGTAO's high.", {kHigh, std::size(kHigh)}},
+    {"low", "1 slice x 2 steps: XeGTAO's low.", {kLow, std::size(kLow)}},
+    {"medium", "2 slices x 2 steps: XeGTAO's medium.", {kMedium, std::size(kMedium)}},
+    {"high", "3 slices x 3 steps: XeGTAO's high.", {kHigh, std::size(kHigh)}},
+    {"ultra", "9 slices x 3 steps: XeGTAO's ultra.", {kUltra, std::size(kUltra)}},
     {"tuned", "1 slice x 9 steps, arcs weighted one by one, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"gtao", "Ground-truth ambient occlusion",
@@ -117,6 +121,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Gtao::create}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &Gtao::create, .appliesPower = true}; }
 
 }  // namespace obscura::ao::gtao

@@ -6,7 +6,7 @@
 // similar depth are blurred by a mean of 2x2, then along rows and columns with a stride of 2 px.
 //
 // Differences: normals are the frame's, not derivatives of depth; 5 depth levels instead of up to 6. The preset `tuned` changes
-// `intensity` and `radius_scale` and blurs along the surface.
+// `sigma` and `radius_scale` and blurs along the surface.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: depths, spiral, blur twice.
 #include <iterator>
@@ -26,7 +26,7 @@ const char* const kBlurs[] = {"none", "depth", "surface"};
 const Parameter kParameters[] = {
     {"samples", "", 1, 100, 9, true, {}, "Samples on the spiral. Cost grows with them. Too few: noise."},
     {"turns", "", 1, 64, 7, true, {}, "Turns of the spiral. Use a prime number, so that samples do not line up into bands."},
-    {"intensity", "m", 0, 1000, 1, false, {},
+    {"sigma", "m", 0, 1000, 1, false, {},
         "Strength of obscurance, sigma; a length, because the published sum is one over a length. Too low: too bright; too high: creases "
         "turn black."},
     {"radius_scale", "", 0.1f, 4, 1, false, {},
@@ -40,11 +40,11 @@ const Parameter kParameters[] = {
         "shows; by depth: it stays on slanted surfaces."},
 };
 const Setting kDense[] = {{"samples", 32}, {"turns", 17}};
-const Setting kTuned[] = {{"samples", 18}, {"intensity", 0.4f}, {"radius_scale", 0.7f}, {"denoise", kSurface}};
+const Setting kTuned[] = {{"samples", 18}, {"sigma", 0.4f}, {"radius_scale", 0.7f}, {"denoise", kSurface}};
 const Preset kPresets[] = {
     {"default", "9 samples on 7 turns, as published.", {}},
     {"dense", "32 samples on 17 turns.", {kDense, std::size(kDense)}},
-    {"tuned", "18 samples, 0.7 of the radius, intensity 0.4 m, blurred along the surface.", {kTuned, std::size(kTuned)}},
+    {"tuned", "18 samples, 0.7 of the radius, sigma 0.4 m, blurred along the surface.", {kTuned, std::size(kTuned)}},
 };
 const MethodInfo kInfo{"scalable", "Scalable ambient obscurance", "McGuire, Mara, Luebke: Scalable Ambient Obscurance, HPG 2012",
     "A few samples on a spiral; distant ones read coarser depth levels.", kDepth | kNormals, {kParameters, std::size(kParameters)},
@@ -66,7 +66,7 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const shared::ScalableSpiral constants{
-            values.count("samples"), values.count("turns"), radiusOf(inputs, values), values["intensity"], values["bias"]};
+            values.count("samples"), values.count("turns"), radiusOf(inputs, values), values["sigma"], values["bias"]};
         const graph::ImageId depths = m_depths.add(graph, inputs, "scalable.depths");
         graph::ImageId visibility = graph.image("scalable.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph.pass("scalable.spiral", m_spiral[values.count("denoise") == kRowsAndColumns])
