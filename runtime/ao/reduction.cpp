@@ -5,23 +5,16 @@
 namespace obscura::ao {
 namespace {
 
-// The pixel of each scale x scale block that is taken, from its upper left one on.
-shared::uvec2 chosenPixel(const shared::View& view, uint32_t scale) {
-    if (!view.temporal) return {0, 0};
-    const uint32_t count = scale * scale, at = view.frame % count, stride = scale == 2 ? 3 : scale + 1;
-    const uint32_t index = at * stride % count;  // 2: the diagonal first
-    return {index % scale, index / scale};
-}
-
-shared::View reducedView(const shared::View& view, uint32_t scale, shared::uvec2 chosen) {
+// Reduced pixels are the first of each scale x scale block of the visible part.
+shared::View reducedView(const shared::View& view, uint32_t scale) {
     shared::View reduced = view;
     reduced.visible = {(view.visible.x + scale - 1) / scale, (view.visible.y + scale - 1) / scale};
     reduced.guard = {view.guard.x / scale, view.guard.y / scale};
     reduced.size = {reduced.visible.x + 2 * reduced.guard.x, reduced.visible.y + 2 * reduced.guard.y};
     const float s = float(scale);
     // Centre of the frame's pixel = s x centre of the reduced pixel + shift.
-    const float shiftX = float(view.guard.x + chosen.x) + 0.5f - s * (float(reduced.guard.x) + 0.5f),
-                shiftY = float(view.guard.y + chosen.y) + 0.5f - s * (float(reduced.guard.y) + 0.5f);
+    const float shiftX = float(view.guard.x) + 0.5f - s * (float(reduced.guard.x) + 0.5f),
+                shiftY = float(view.guard.y) + 0.5f - s * (float(reduced.guard.y) + 0.5f);
     reduced.unproject = {view.unproject.x * s, view.unproject.y * s, view.unproject.z + view.unproject.x * shiftX,
         view.unproject.w + view.unproject.y * shiftY};
     reduced.project = {view.project.x / s, view.project.y / s, (view.project.z - shiftX) / s, (view.project.w - shiftY) / s};
@@ -39,15 +32,14 @@ Status Reduction::create(gpu::Device& device, const gpu::ShaderLibrary& shaders,
 
 Inputs Reduction::reduce(
     gpu::Device& device, const gpu::ShaderLibrary& shaders, graph::Graph& graph, const Inputs& inputs, uint32_t scale) {
-    const shared::uvec2 chosen = chosenPixel(inputs.view, scale);
     Inputs reduced = inputs;
-    reduced.view = reducedView(inputs.view, scale, chosen);
+    reduced.view = reducedView(inputs.view, scale);
     reduced.viewBlock = graph.upload("reduced view", reduced.view);
     reduced.motion = {};  // history is of the frame's pixels
     const shared::uvec2 size = reduced.view.size;
     // Of the frame's pixel that reduced pixel 0 is.
-    const VkOffset2D first{int32_t(inputs.view.guard.x - reduced.view.guard.x * scale + chosen.x),
-        int32_t(inputs.view.guard.y - reduced.view.guard.y * scale + chosen.y)};
+    const VkOffset2D first{
+        int32_t(inputs.view.guard.x - reduced.view.guard.x * scale), int32_t(inputs.view.guard.y - reduced.view.guard.y * scale)};
     reduced.depth = graph.image("reduced depth", {VK_FORMAT_R32_SFLOAT, size.x, size.y});
     reduced.normals = graph.image("reduced normals", {VK_FORMAT_R32_UINT, size.x, size.y});
     graph.pass("reduce", m_reduce)
@@ -70,7 +62,7 @@ Inputs Reduction::reduce(
 
 graph::ImageId Reduction::enlarge(
     graph::Graph& graph, const Inputs& inputs, const Inputs& reduced, uint32_t scale, graph::ImageId visibility) {
-    const shared::uvec2 visible = inputs.view.visible, chosen = chosenPixel(inputs.view, scale);
+    const shared::uvec2 visible = inputs.view.visible;
     const graph::ImageId result = graph.image("enlarged visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
     graph.pass("enlarge", m_enlarge)
         .read(inputs.viewBlock)
@@ -81,7 +73,7 @@ graph::ImageId Reduction::enlarge(
         .read(reduced.normals)
         .read(visibility)
         .write(result)
-        .constants(shared::Enlarge{{float(chosen.x), float(chosen.y)}, 1.0f / float(scale)})
+        .constants(shared::Enlarge{1.0f / float(scale)})
         .dispatch(visible.x, visible.y);
     return result;
 }

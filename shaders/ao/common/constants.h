@@ -19,11 +19,9 @@ struct Reduce {  // reduce.comp
 OBSCURA_SHARED_SIZE(Reduce, 16);
 
 struct Enlarge {  // enlarge.comp
-    vec2 chosen;     // px of the first visible block that its reduced pixel is
     float perScale;  // 1 / scale
-    float unused;
 };
-OBSCURA_SHARED_SIZE(Enlarge, 16);
+OBSCURA_SHARED_SIZE(Enlarge, 4);
 
 struct Controls {  // controls.comp
     float intensity;  // factor on obscurance
