@@ -73,9 +73,7 @@ const char* unfitEyeFromWorld(const float m[16]) {
     for (int a = 0; a < 3; ++a)
         if (std::fabs(dot(a, a) - 1.0) > kTolerance)
             return "scales; it must be rigid: take the scale out, and lengths of the falloff in units of the depth";
-    const double turned = m[0] * (double(m[5]) * m[10] - double(m[6]) * m[9]) - m[4] * (double(m[1]) * m[10] - double(m[2]) * m[9]) +
-                          m[8] * (double(m[1]) * m[6] - double(m[2]) * m[5]);
-    return turned < 0.0 ? "mirrors; eye space is right-handed: negate its third row if yours looks down +z (ao.h, Space)" : nullptr;
+    return nullptr;  // a mirror is one too: that of a left-handed world
 }
 
 Status volumeOf(const Volume& volume, shared::Volume& block, const char*& reason) {
