@@ -39,6 +39,7 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     adopted.queueFamily = desc.queueFamily;
     adopted.getInstanceProcAddr = desc.getInstanceProcAddr;
     adopted.framesInFlight = desc.framesInFlight;
+    adopted.pipelineCache = desc.pipelineCache;
     adopted.allocator = desc.allocator;
     adopted.memory = memoryOf(desc.memory);
     if (desc.log)

@@ -54,6 +54,7 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::string& er
     device->m_queue = host.queue;
     device->m_queueFamily = host.queueFamily;
     device->m_framesInFlight = std::max(1u, host.framesInFlight);
+    device->m_pipelineCache = host.pipelineCache;
     missing = device->m_vk.loadInstance(host.getInstanceProcAddr, host.instance);
     if (!missing) missing = device->m_vk.loadDevice(host.device);
     if (missing) {
@@ -111,13 +112,14 @@ Status Device::finish() {
         if (VkResult result = m_vk.AllocateCommandBuffers(m_device, &buffer, &m_commandBuffer)) return fromVulkan(result);
     }
 
+    if (m_pipelineCache) return Status::ok;
     readPipelineCache(properties);
     VkPipelineCacheCreateInfo cache{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     cache.initialDataSize = m_pipelineCacheRead.size();
     cache.pInitialData = m_pipelineCacheRead.data();
     VkPipelineCache made = VK_NULL_HANDLE;
     const VkResult result = m_vk.CreatePipelineCache(m_device, &cache, m_allocator, &made);
-    if (result == VK_SUCCESS) m_pipelineCache = made;
+    if (result == VK_SUCCESS) m_pipelineCache = m_ownPipelineCache = made;
     return fromVulkan(result);
 }
 
@@ -127,8 +129,8 @@ Device::~Device() {
         if (m_owned && !m_caps.compilerOnly) m_vk.DeviceWaitIdle(m_device);
         destroyReleased(~0ull);
         for (const CachedSampler& cached : m_samplers) m_vk.DestroySampler(m_device, cached.sampler, m_allocator);
-        if (m_pipelineCache) writePipelineCache();
-        m_vk.DestroyPipelineCache(m_device, m_pipelineCache, m_allocator);
+        if (m_ownPipelineCache) writePipelineCache();
+        m_vk.DestroyPipelineCache(m_device, m_ownPipelineCache, m_allocator);
         m_vk.DestroyCommandPool(m_device, m_commandPool, m_allocator);
         if (m_owned) m_vk.DestroyDevice(m_device, m_allocator);
     }

@@ -42,6 +42,7 @@ struct AdoptedDevice {
     uint32_t queueFamily = 0;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     uint32_t framesInFlight = 2;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;  // null: one of the device's own
     const VkAllocationCallbacks* allocator = nullptr;
     MemorySource memory;  // empty: vkAllocateMemory, once an image or buffer
     Log log;
@@ -145,7 +146,7 @@ private:
     VkDevice m_device = VK_NULL_HANDLE;
     VkQueue m_queue = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT m_messenger = VK_NULL_HANDLE;
-    VkPipelineCache m_pipelineCache = VK_NULL_HANDLE;
+    VkPipelineCache m_pipelineCache = VK_NULL_HANDLE, m_ownPipelineCache = VK_NULL_HANDLE;  // the host's or our own; our own or null
     VkCommandPool m_commandPool = VK_NULL_HANDLE;
     VkCommandBuffer m_commandBuffer = VK_NULL_HANDLE;  // of runNow
     const VkAllocationCallbacks* m_allocator = nullptr;

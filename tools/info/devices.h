@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <vulkan/vulkan_core.h>
+#include <obscura/ao.h>
 
 struct DeviceReport {
     std::string name;                  // as reported by the driver
@@ -17,3 +17,15 @@ struct DeviceReport {
 // Every physical device, in the loader's order. On a device that meets the requirements, creates a VkDevice, a context of the library and
 // every method's pipelines; failures are listed in `missing`. If no instance can be created, the list is empty and `error` says why.
 std::vector<DeviceReport> reportDevices(PFN_vkGetInstanceProcAddr load, std::string& error);
+
+// Device memory of a context with a method's presets, of frames of that size with depth, and depth layers where the method reads them.
+struct MemoryReport {
+    std::string device;  // the first that can run the library
+    struct Preset {
+        std::string id;
+        uint64_t bytes;
+    };
+    std::vector<Preset> presets;  // empty: `error` says why
+};
+MemoryReport reportMemory(
+    PFN_vkGetInstanceProcAddr load, const obscura::ao::MethodInfo& method, uint32_t width, uint32_t height, std::string& error);

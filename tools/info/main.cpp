@@ -1,5 +1,7 @@
-// obscura-info: the library's version and methods, and the Vulkan devices of this machine with what each lacks to run it.
+// obscura-info: the library's version and methods, a method's parameters, presets and memory, and the Vulkan devices of this machine with
+// what each lacks to run it. Built with the library alone.
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include <obscura/ao.h>
@@ -7,15 +9,19 @@
 #include "devices.h"
 #include "loader.h"
 
+namespace ao = obscura::ao;
+
 namespace {
 
 constexpr const char* kUsage =
-    "obscura-info [--methods | --devices]\n"
+    "obscura-info [--methods | --devices | METHOD [WIDTHxHEIGHT]]\n"
     "Prints the library's version, its methods, and whether each Vulkan device of this machine can run it.\n"
-    "Exit code: 0 if a device can, 1 if none can, 77 if there is no Vulkan device.\n";
+    "With METHOD: its inputs, parameters and presets, and the device memory of each preset at that size (1920x1080).\n"
+    "Exit code: 0 if a device can, 1 if none can, 2 for a wrong argument, 77 if there is no Vulkan device.\n"
+    "  obscura-info layered 3840x2160\n";
 
 void printMethods() {
-    for (const obscura::ao::MethodInfo* method : obscura::ao::methods()) std::printf("  %-18s %s\n", method->id, method->title);
+    for (const ao::MethodInfo* method : ao::methods()) std::printf("  %-18s %s\n", method->id, method->title);
 }
 
 int printDevices() {
@@ -45,19 +51,93 @@ int printDevices() {
     return result;
 }
 
+std::string inputsOf(uint32_t needs) {
+    const struct {
+        uint32_t bit;
+        const char* name;
+    } inputs[] = {{ao::kDepth, "depth"}, {ao::kNormals, "normals (or reconstructed from depth)"}, {ao::kMotion, "motion"},
+        {ao::kLayers, "depth layers"}, {ao::kVolume, "volume"}};
+    std::string text;
+    for (const auto& input : inputs)
+        if (needs & input.bit) text += (text.empty() ? "" : ", ") + std::string(input.name);
+    return text.empty() ? "none" : text;
+}
+
+void printParameter(const ao::Parameter& parameter) {
+    std::printf("  %-18s ", parameter.id);
+    if (parameter.choices.count) {
+        std::string choices;
+        for (const char* choice : parameter.choices) choices += (choices.empty() ? "" : ", ") + std::string(choice);
+        std::printf("%s (%s)", choices.c_str(), parameter.choices[size_t(parameter.initial)]);
+    } else {
+        std::printf(
+            "%g to %g (%g)%s%s", parameter.minimum, parameter.maximum, parameter.initial, *parameter.unit ? " " : "", parameter.unit);
+    }
+    std::printf("\n    %s\n", parameter.sentence);
+}
+
+int printMethod(const ao::MethodInfo& method, uint32_t width, uint32_t height) {
+    std::printf("%s: %s\n  %s\n", method.id, method.title, method.sentence);
+    if (*method.paper) std::printf("  %s\n", method.paper);
+    std::printf("  inputs: %s\nparameters:\n", inputsOf(method.needs).c_str());
+    for (const ao::Parameter& parameter : method.parameters) printParameter(parameter);
+    std::puts("presets:");
+    for (const ao::Preset& preset : method.presets) {
+        std::printf("  %-18s %s\n", preset.id, preset.sentence);
+        if (!preset.settings.count) continue;
+        std::printf("    ");
+        for (const ao::Setting& setting : preset.settings) std::printf("%s=%g ", setting.id, setting.value);
+        std::printf("\n");
+    }
+    const PFN_vkGetInstanceProcAddr load = openLoader();
+    std::string error = load ? "" : std::string("the Vulkan loader ") + loaderName() + " is not installed";
+    const MemoryReport report = load ? reportMemory(load, method, width, height, error) : MemoryReport();
+    if (report.presets.empty()) {
+        std::printf("memory: unknown; %s\n", error.c_str());
+        return 77;
+    }
+    std::printf("device memory at %u x %u px, two frames in flight, on %s:\n", width, height, report.device.c_str());
+    for (const MemoryReport::Preset& preset : report.presets)
+        std::printf("  %-18s %8.1f MiB, %5.1f bytes a pixel\n", preset.id.c_str(), double(preset.bytes) / (1 << 20),
+            double(preset.bytes) / (double(width) * height));
+    return 0;
+}
+
+bool parseSize(const char* text, uint32_t& width, uint32_t& height) {
+    char* end = nullptr;
+    const unsigned long w = std::strtoul(text, &end, 10);
+    if (*end != 'x' || end == text) return false;
+    const char* second = end + 1;
+    const unsigned long h = std::strtoul(second, &end, 10);
+    if (*end || end == second || w < 1 || h < 1 || w > 32768 || h > 32768) return false;
+    width = uint32_t(w), height = uint32_t(h);
+    return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    const char* what = argc > 1 ? argv[1] : "";
-    if (argc > 2 || (argc == 2 && std::strcmp(what, "--methods") != 0 && std::strcmp(what, "--devices") != 0)) {
-        const bool help = argc == 2 && std::strcmp(what, "--help") == 0;
-        std::fputs(kUsage, help ? stdout : stderr);
-        return help ? 0 : 2;
+    const std::string what = argc > 1 ? argv[1] : "";
+    if (what == "--help" || what == "-h") return std::fputs(kUsage, stdout), 0;
+    const bool listed = what.empty() || what == "--methods" || what == "--devices";
+    if (argc > (listed ? 2 : 3) || (!listed && what[0] == '-')) return std::fputs(kUsage, stderr), 2;
+    if (!listed) {
+        uint32_t width = 1920, height = 1080;
+        const ao::MethodInfo* method = ao::findMethod(what.c_str());
+        if (!method) {
+            std::fprintf(stderr, "obscura-info: %s: no such method; obscura-info --methods names them\n", what.c_str());
+            return 2;
+        }
+        if (argc == 3 && !parseSize(argv[2], width, height)) {
+            std::fprintf(stderr, "obscura-info: %s: write WIDTHxHEIGHT in pixels, as in 1920x1080\n", argv[2]);
+            return 2;
+        }
+        return printMethod(*method, width, height);
     }
-    if (argc == 1) std::puts("Obscura " OBSCURA_VERSION);
-    if (std::strcmp(what, "--devices") != 0) {
-        if (argc == 1) std::puts("methods:");
+    if (what.empty()) std::puts("Obscura " OBSCURA_VERSION);
+    if (what != "--devices") {
+        if (what.empty()) std::puts("methods:");
         printMethods();
     }
-    return std::strcmp(what, "--methods") != 0 ? printDevices() : 0;
+    return what != "--methods" ? printDevices() : 0;
 }

@@ -181,6 +181,7 @@ struct DeviceDesc {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  // the loader's; the library does not link it
     uint32_t framesInFlight = 2;  // N >= 1: when record() is called, the GPU has finished the frame recorded N calls ago
     VisibilityFormat format = VisibilityFormat::r16f;  // of Output::image
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;    // yours, for the library's pipelines; null: one of its own, in memory
     // Host memory of Vulkan objects; null: the driver's. Must outlive the context. The library's own containers use operator new.
     const VkAllocationCallbacks* allocator = nullptr;
     MemoryCallbacks memory;  // device memory; empty: vkAllocateMemory, one allocation for each image and buffer (a few for a method)
