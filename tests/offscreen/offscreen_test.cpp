@@ -199,6 +199,38 @@ TEST_F(OffScreenTest, raysThroughVoxelsAreNotCountedTwice) {
     EXPECT_EQ(run(box, box.seen(), values(voxels), "quadratic:2"), with(box, kOff));
 }
 
+// More rays are less noise: with 16 times as many the added obscurance is less than half as far from that of 64.
+TEST_F(OffScreenTest, raysRemoveNoise) {
+    TallBox box;
+    const auto rays = [&](float count) {
+        return run(box, box.seen(), values({{"offscreen", kOffScreen}, {"offscreen_rays", count}}), "quadratic:2");
+    };
+    const Picture most = rays(64);
+    const auto away = [&](const Picture& picture) {
+        double sum = 0.0;
+        for (size_t i = 0; i < most.size(); ++i) sum += std::abs(double(picture[i]) - double(most[i]));
+        return sum / double(most.size());
+    };
+    const double few = away(rays(4)), many = away(rays(48));
+    printf("  away from 64 rays: 4 rays %.5f, 48 rays %.5f\n", few, many);
+    EXPECT_GT(few, 0.0);
+    EXPECT_LT(many, 0.5 * few);
+}
+
+// Steps of several cells miss walls that are one cell thick, and shorter ones find no more than the default does.
+TEST_F(OffScreenTest, longStridesMissThinWalls) {
+    TallBox box({0.1, TallBox::kFloor, -6.0}, {0.15, 1.4, -3.0});  // a sheet, thinner than a cell
+    const auto found = [&](float stride) {
+        return mean(
+            run(box, box.seen(), values({{"offscreen", kOffScreen}, {"offscreen_rays", 64}, {"offscreen_stride", stride}}), "quadratic:2"));
+    };
+    const double shortest = found(0.5f), initial = found(1.25f), longest = found(8.0f);
+    printf("  obscurance of a sheet: stride 0.5 %.5f, 1.25 %.5f, 8 %.5f\n", shortest, initial, longest);
+    EXPECT_GT(shortest, 0.002);
+    EXPECT_NEAR(initial, shortest, 0.1 * shortest);
+    EXPECT_LT(longest, 0.7 * shortest);
+}
+
 // A floor point beside a box. The camera yaws until the box has left the guard band and the point is about to leave the image: the
 // obscurance of the point must stay constant.
 TEST_F(OffScreenTest, obscuranceIsConstantWhileTheBoxLeavesTheImage) {
