@@ -60,20 +60,28 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         return {};
     }
     if (!prepare(values, falloff.kind)) return {};
-    view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
-    const bool discard = frame.cut || m_last != &values.info();
+    view.temporal = values.info().needs && values["temporal"] > 0.0f ? 1 : 0;
+    Recorded& last = m_views[0];
+    const bool discard = frame.cut || last.method != &values.info() || last.view.orthographic != view.orthographic;
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
     if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure, volume};
     const LayerMode use = layerModeOf(values);
     if (use != LayerMode::none) inputs.layers.thickness = sources.layers.thickness;
     if (use > LayerMode::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;
-    previousFromEye(frame.eyeFromWorld, discard ? frame.eyeFromWorld : m_eyeFromWorld, inputs.previousFromEye);
-    for (int axis = 0; axis < 2; ++axis) inputs.motionOffset[axis] = m_jitter[axis] - frame.jitter[axis];
-    graph.onRecorded([this, info = &values.info(), eye = std::to_array(frame.eyeFromWorld), jitter = std::to_array(frame.jitter)] {
-        m_last = info;
-        std::copy(eye.begin(), eye.end(), m_eyeFromWorld);
-        std::copy(jitter.begin(), jitter.end(), m_jitter);
+    inputs.previousView = discard ? view : last.view;
+    previousFromEye(frame.eyeFromWorld, discard ? frame.eyeFromWorld : last.eyeFromWorld, inputs.previousFromEye);
+    std::copy_n(frame.jitter, 2, inputs.jitter);
+    std::copy_n(discard ? frame.jitter : last.jitter, 2, inputs.previousJitter);
+    graph.onRecorded([&last, view, method = &values.info(), eye = std::to_array(frame.eyeFromWorld), jitter = std::to_array(frame.jitter)] {
+        last.method = method;
+        last.view = view;
+        std::copy(eye.begin(), eye.end(), last.eyeFromWorld);
+        std::copy(jitter.begin(), jitter.end(), last.jitter);
     });
+    if (view.temporal && !sources.motion && !std::exchange(m_warned, true))
+        m_device.log(gpu::Severity::warning,
+            "obscurance: parameter `temporal` without Frame::motion: history follows the camera (Frame::eyeFromWorld), "
+            "and surfaces that move by themselves keep none");
     Method& method = *methodOf(values, falloff.kind);
     const MethodEntry& entry = registry()[values.index()];
     graph::ImageId visibility = method.add(graph, inputs, values);
@@ -86,7 +94,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     TemporalSettings temporal;
     temporal.history = values["temporal"];
     temporal.clip = values["temporal_clip"];
-    return {m_temporal.add(graph, inputs, visibility, temporal, discard, "temporal"), inputs};
+    return {m_temporal.add(graph, inputs, visibility, temporal, last.history, discard, "temporal"), inputs};
 }
 
 }  // namespace obscura::ao

@@ -30,9 +30,19 @@ public:
         Inputs inputs;              // what prepare made, linear depth among it
     };
     Added add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values);
-    void discardHistory() { m_last = nullptr; }  // the next frame begins without: as Frame::cut
+    void discardHistory() {  // the next frames begin without: as Frame::cut
+        for (auto& [index, recorded] : m_views) recorded.method = nullptr;
+    }
 
 private:
+    // What the last recorded frame of a view left.
+    struct Recorded {
+        graph::History history;
+        const MethodInfo* method = nullptr;  // null: there was none
+        float eyeFromWorld[16] = {};
+        float jitter[2] = {};
+        shared::View view{};
+    };
     Method* methodOf(const Values& values, FalloffKind falloff);  // made if need be; null: cannot be
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
@@ -40,10 +50,8 @@ private:
     std::map<FalloffKind, std::unique_ptr<OffScreenPass>> m_offScreen;  // those that values have asked for
     Temporal m_temporal;
     std::map<std::pair<size_t, FalloffKind>, std::unique_ptr<Method>> m_methods;  // by registry order; null: could not be made
-    const MethodInfo* m_last = nullptr;                                           // the last recorded frame's; null: there is no history
-    float m_eyeFromWorld[16] = {};                                                // the last recorded frame's
-    float m_jitter[2] = {};                                                       // the last recorded frame's
-    bool m_valid = false;
+    std::map<uint32_t, Recorded> m_views;                                         // by Frame::view
+    bool m_valid = false, m_warned = false;                                       // warned: history without motion was logged
 };
 
 }  // namespace obscura::ao

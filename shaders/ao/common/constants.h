@@ -65,18 +65,23 @@ struct SumColumns {  // sum_columns.comp
 OBSCURA_SHARED_SIZE(SumColumns, 8);
 
 struct Reproject {  // temporal.comp
+    // Texels count from the upper left of each frame's visible part, whole numbers at their centres.
     vec4 previousFromEye[3];  // rows
-    vec2 motionScale;         // to px
-    vec2 motionOffset;        // px
+    vec4 previousUnproject;   // last frame's eye.xy = (its texel * xy + zw) * (orthographic ? 1 : depth)
+    vec4 previousTexel;       // last frame's texel = this frame's * xy + zw + motion * motionScale; CAMERA: from last frame's
+                              // eye.xy / (orthographic ? 1 : depth) * xy + zw
+    vec2 motionScale;         // to px of last frame
+    uvec2 previousVisible;    // px
+    float previousOrthographicDepth;
     float history;            // largest weight of the history
     float depthTolerance;     // relative
     float normalTolerance;    // cosine
     float clip;               // standard deviations
     float clipFloor;          // least deviation
     uint valid;               // 0: there is no history
-    uint unused[2];
+    uint unused;
 };
-OBSCURA_SHARED_SIZE(Reproject, 96);
+OBSCURA_SHARED_SIZE(Reproject, 128);
 
 struct Upsample {  // upsample_rows.comp and upsample_columns.comp
     int scale;     // image pixels per map pixel

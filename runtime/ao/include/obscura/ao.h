@@ -288,12 +288,14 @@ struct Frame {
     ImageView normals;
     NormalKind normalKind = NormalKind::eye;                      // the space of `normals`
     NormalEncoding normalEncoding = NormalEncoding::signedFloat;  // how a texel of `normals` holds a vector
-    ImageView motion;  // optional, for the parameter `temporal`: two floats, sampled usage; where each pixel's surface was last frame
+    // Optional, for the parameter `temporal`: two floats, sampled usage; where each pixel's surface was last frame. Without it history
+    // follows the camera, by eyeFromWorld and projection of both frames: surfaces that move by themselves begin anew.
+    ImageView motion;
     float motionScale[2] = {1, 1};  // motion * motionScale = px from this pixel to last frame's position, y down. Motion in UV:
                                     // {width, height}; in NDC with y up: {width / 2, -height / 2}; pointing from last frame to this:
                                     // negated
     // px, x right, y down: how far the jitter of temporal anti-aliasing in `projection` moves the image this frame, if `motion` leaves it
-    // out. 0: there is no jitter, or `motion` contains it.
+    // out. 0: there is no jitter, or `motion` contains it, or there is no `motion`.
     float jitter[2] = {0, 0};
     bool cut = false;       // camera cut: history is discarded this frame
     DepthLayers layers;     // optional
