@@ -18,7 +18,7 @@ graph::ImageId Crop::add(gpu::Device& device, const gpu::ShaderLibrary& shaders,
     graph.pass("prepare.crop", program)
         .read(source)
         .write(part)
-        .constants(shared::Crop{{origin.x, origin.y}})
+        .constants(shared::Crop{{origin.x, origin.y}, shared::sizeOf(size.width, size.height)})
         .dispatch(size.width, size.height);
     return part;
 }

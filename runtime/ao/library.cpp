@@ -30,12 +30,31 @@ Library::~Library() = default;
 
 bool Library::prepare(const MethodInfo& info, FalloffKind falloff) { return methodOf(Values(info), falloff) != nullptr; }
 
+std::pair<size_t, FalloffKind> Library::keyOf(const Values& values, FalloffKind falloff) const {
+    return {values.index(), registry()[values.index()].perFalloff ? falloff : FalloffKind{}};
+}
+
 Method* Library::methodOf(const Values& values, FalloffKind falloff) {
     if (!m_valid || values.index() == Values::kUnregistered) return nullptr;
-    const MethodEntry& entry = registry()[values.index()];
-    std::unique_ptr<Method>& method = m_methods[{values.index(), entry.perFalloff ? falloff : FalloffKind{}}];
-    if (!method) method = entry.create(m_device, m_shaders, falloff);
-    return method.get();
+    Made& made = m_methods[keyOf(values, falloff)];
+    const uint64_t before = m_device.memoryUse();
+    if (!made.method) {
+        made.method = registry()[values.index()].create(m_device, m_shaders, falloff);
+        made.bytes = m_device.memoryUse() - before;
+    }
+    return made.method.get();
+}
+
+void Library::trim(const Values& values, FalloffKind falloff) {
+    std::erase_if(m_methods, [key = keyOf(values, falloff)](const auto& made) { return made.first != key; });
+    std::erase_if(m_offScreen, [falloff](const auto& made) { return made.first != falloff; });
+    std::erase_if(m_views, [](const auto& view) { return !view.second.history.valid(); });
+}
+
+uint64_t Library::methodBytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [key, made] : m_methods) bytes += made.bytes;
+    return bytes;
 }
 
 bool Library::prepare(const Values& values, FalloffKind falloff) {
@@ -61,7 +80,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     }
     if (!prepare(values, falloff.kind)) return {};
     view.temporal = values.info().needs && values["temporal"] > 0.0f ? 1 : 0;
-    Recorded& last = m_views[0];
+    Recorded& last = m_views[frame.view];
     const bool discard = frame.cut || last.method != &values.info() || last.view.orthographic != view.orthographic;
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
     if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure, volume};

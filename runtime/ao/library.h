@@ -23,6 +23,8 @@ public:
     // logged.
     bool prepare(const MethodInfo& info, FalloffKind falloff);
     bool prepare(const Values& values, FalloffKind falloff);
+    void trim(const Values& values, FalloffKind falloff);  // keeps only those, and histories of the views that have one
+    uint64_t methodBytes() const;                          // device memory that methods allocated when they were made
 
     // Adds the passes of prepare and of the values' method. No visibility, logged: the frame is invalid, or a pipeline cannot be made.
     struct Added {
@@ -49,9 +51,14 @@ private:
     Prepare m_prepare;
     std::map<FalloffKind, std::unique_ptr<OffScreenPass>> m_offScreen;  // those that values have asked for
     Temporal m_temporal;
-    std::map<std::pair<size_t, FalloffKind>, std::unique_ptr<Method>> m_methods;  // by registry order; null: could not be made
-    std::map<uint32_t, Recorded> m_views;                                         // by Frame::view
-    bool m_valid = false, m_warned = false;                                       // warned: history without motion was logged
+    struct Made {
+        std::unique_ptr<Method> method;  // null: could not be made
+        uint64_t bytes = 0;              // of device memory
+    };
+    std::pair<size_t, FalloffKind> keyOf(const Values& values, FalloffKind falloff) const;
+    std::map<std::pair<size_t, FalloffKind>, Made> m_methods;  // by registry order
+    std::map<uint32_t, Recorded> m_views;                      // by Frame::view
+    bool m_valid = false, m_warned = false;                    // warned: history without motion was logged
 };
 
 }  // namespace obscura::ao

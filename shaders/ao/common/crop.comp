@@ -20,6 +20,6 @@ layout(push_constant) uniform Block { Crop constants; };
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(part)))) return;
+    if (any(greaterThanEqual(p, constants.size))) return;
     imageStore(part, p, texelFetch(source, p + constants.origin, 0));
 }
