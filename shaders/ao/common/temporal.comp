@@ -1,11 +1,11 @@
-// Temporal reprojection of visibility. History is read at the motion vector or, with CAMERA, where last frame's camera saw the surface if it
-// is at rest [Hoang 2012, eq. 12], bilinearly from those of its four pixels that are in the plane of this pixel's surface, as that camera
-// saw it, and have a similar normal. Last frame's picture may have another size and projection. It is clamped to the spread of the current frame
-// around the pixel, so that moved occluders leave no trail; clamping also reduces the number of accumulated frames.
+// Temporal reprojection of visibility. History is read at the motion vector or, with CAMERA, where last frame's camera saw the surface if
+// it is at rest [Hoang 2012, eq. 12], bilinearly from those of its four pixels that are in the plane of this pixel's surface, as that
+// camera saw it, and have a similar normal. Last frame's picture may have another size and projection. History is clamped to the spread of
+// the current frame around the pixel, so that moved occluders leave no trail; clamping also reduces the number of accumulated frames.
 // Spatial spread misses two kinds of noise: errors that are smooth in space and change as a surface moves over the image, and noise of
 // surfaces one pixel wide. So each pixel also keeps its mean change from frame to frame (unrest), which widens the clamp. For a pixel
-// without motion only changes that reverse direction count, because a steady change is a moving shadow.
-// Visibility is kept in 14 bits: in 8 bits or a half, slow averages stop 1/255 short of their target.
+// without motion only changes that reverse direction count, because a steady change is a moving shadow. Visibility is kept in 14 bits: in 8
+// bits or a half, slow averages stop 1/255 short of their target.
 #version 460
 #pragma variant CAMERA
 #extension GL_GOOGLE_include_directive : require
