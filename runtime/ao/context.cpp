@@ -1,6 +1,9 @@
 // record() and what it tells: imports a frame's images into a graph, runs the same passes as the sample, hands out visibility.
 #include "ao/context.h"
 
+#include <algorithm>
+
+#include "ao/common/constants.h"
 #include "ao/frame_check.h"
 
 namespace obscura::ao {
@@ -62,6 +65,36 @@ graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame
     return context.library->add(graph, frame, sources, context.falloff, *context.values).visibility;
 }
 
+bool isDynamic(const Frame& frame) { return frame.maxSize.width > 0; }
+
+VkExtent2D largestOf(VkExtent2D a, VkExtent2D b) { return {std::max(a.width, b.width), std::max(a.height, b.height)}; }
+
+// Declares a frame. Within a Frame::maxSize its images are as large as those of the largest frame, which `capacity` keeps.
+graph::ImageId declareWithin(Context& context, graph::Graph& graph, graph::Capacity& capacity, const Frame& frame, bool forecast) {
+    const auto declared = [&] {
+        graph.begin(nullptr, isDynamic(frame) ? &capacity : nullptr);
+        return declare(context, graph, frame, forecast);
+    };
+    const graph::ImageId visibility = declared();
+    if (!visibility || graph.fits()) return visibility;
+    Frame largest = frame;
+    largest.size = frame.maxSize;
+    const bool half = frame.layers.secondSize.width < frame.size.width || frame.layers.secondSize.height < frame.size.height;
+    largest.layers.secondSize = half ? VkExtent2D{(largest.size.width + 1) / 2, (largest.size.height + 1) / 2} : largest.size;
+    graph::Graph most(*context.device);  // not executed
+    if (!declare(context, most, largest, forecast)) return {};
+    capacity.grow(most);
+    capacity.grow(graph);
+    return declared();
+}
+
+// The visible size of the largest frame.
+VkExtent2D mostVisible(const Frame& frame, VkExtent2D visible) {
+    const VkExtent2D twice{2 * frame.guard.width, 2 * frame.guard.height}, &most = frame.maxSize;
+    if (!isDynamic(frame)) return visible;
+    return largestOf(visible, {std::max(most.width, twice.width) - twice.width, std::max(most.height, twice.height) - twice.height});
+}
+
 gpu::ImageDesc outputDesc(const Context& context, VkExtent2D size) {
     const bool r8 = context.format == VisibilityFormat::r8;
     const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
@@ -76,15 +109,20 @@ gpu::Status nextOutput(Context& context, VkExtent2D size, const gpu::Image*& out
 }
 
 // The one place where every method's visibility becomes what the host reads. `target` may be null in a frame that is not executed.
-void deliver(Context& context, graph::Graph& graph, graph::ImageId visibility, const gpu::ImageDesc& desc, const gpu::Image* target) {
+void deliver(Context& context, graph::Graph& graph, graph::ImageId visibility, VkExtent2D visible, const gpu::ImageDesc& desc,
+    const gpu::Image* target) {
     graph::External external;
     if (target) external.image = target->handle(), external.view = target->view();
     external.desc = desc;
     external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const graph::ImageId result = graph.import("output", external);
-    const VkExtent3D size{desc.width, desc.height, 1};
+    const VkExtent3D size{visible.width, visible.height, 1};
     if (context.format == VisibilityFormat::r8) {
-        graph.pass("output", context.toR8).read(visibility).write(result).dispatch(size.width, size.height);
+        graph.pass("output", context.toR8)
+            .read(visibility)
+            .write(result)
+            .constants(shared::Whole{shared::sizeOf(size.width, size.height)})
+            .dispatch(size.width, size.height);
         return;
     }
     graph.pass("output")
@@ -108,18 +146,24 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcep
         if (const Status status = checkFrame(*context, frame, false, view); status != Status::ok) return status;
         // A record() that failed used nothing of its frame: the next one takes its place.
         if (context->executor->lastFrame() == context->device->frame()) context->device->nextFrame();
+        const VkExtent2D visible{view.visible.x, view.visible.y};
+        if (frame.maxSize.width != context->maxSize.width || frame.maxSize.height != context->maxSize.height) {
+            context->maxSize = frame.maxSize;
+            context->capacity.clear();
+            context->outputSize = {};
+        }
+        context->outputSize = isDynamic(frame) ? largestOf(context->outputSize, mostVisible(frame, visible)) : visible;
         graph::Graph& graph = *context->graph;
-        graph.begin();
         const gpu::Image* target = nullptr;
-        if (const gpu::Status made = nextOutput(*context, {view.visible.x, view.visible.y}, target); made != gpu::Status::ok)
-            return statusOf(made);
-        const graph::ImageId visibility = declare(*context, graph, frame, false);
+        if (const gpu::Status made = nextOutput(*context, context->outputSize, target); made != gpu::Status::ok) return statusOf(made);
+        const graph::ImageId visibility = declareWithin(*context, graph, context->capacity, frame, false);
         if (!visibility) return statusOf(context->device->failure());
-        deliver(*context, graph, visibility, target->desc(), target);
+        deliver(*context, graph, visibility, visible, target->desc(), target);
         const Status status = statusOf(context->executor->execute(graph, cmd));
         if (status != Status::ok) return status;
         output.image = target->handle();
         output.view = target->view();
+        output.size = visible;
         output.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
         return Status::ok;
     });
@@ -135,15 +179,29 @@ uint64_t memoryUse(Context* context, const Frame& frame) noexcept {
         shared::View view;
         if (const Status status = checkFrame(*context, frame, true, view); status != Status::ok) return status;
         graph::Graph asked(*context->device);  // declared, not executed
-        const graph::ImageId visibility = declare(*context, asked, frame, true);
+        graph::Capacity capacity;
+        const graph::ImageId visibility = declareWithin(*context, asked, capacity, frame, true);
         if (!visibility) return Status::shaderError;
-        const gpu::ImageDesc output = outputDesc(*context, {view.visible.x, view.visible.y});
-        deliver(*context, asked, visibility, output, nullptr);
+        const VkExtent2D visible{view.visible.x, view.visible.y};
+        const gpu::ImageDesc output = outputDesc(*context, mostVisible(frame, visible));
+        deliver(*context, asked, visibility, visible, output, nullptr);
         const uint64_t passes = context->executor->bytes(asked);
-        if (passes) bytes = context->methodBytes + passes + context->outputs.size() * gpu::Image::bytesOf(*context->device, output);
+        if (passes)
+            bytes = context->library->methodBytes() + passes + context->outputs.size() * gpu::Image::bytesOf(*context->device, output);
         return Status::ok;
     });
     return bytes;
+}
+
+void trim(Context* context) noexcept {
+    if (!context) return;
+    guarded(context->log, [&] {
+        context->executor->trim();
+        context->library->trim(*context->values, context->falloff.kind);
+        context->capacity.clear();
+        context->outputSize = {};
+        return Status::ok;
+    });
 }
 
 List<PassTime> timings(Context* context) noexcept {

@@ -35,8 +35,11 @@ struct Context {
     Crop crop;                        // for Frame::origin
     gpu::Program toR8;                // R16F to R8, for VisibilityFormat::r8
     std::vector<gpu::Image> outputs;  // a ring: the host may still read the last frames'
-    uint64_t methodBytes = 0;         // device memory that methods allocated when they were made
-    std::optional<Values> values;     // of the method set
+    uint32_t views = 1;
+    VkExtent2D maxSize{};          // Frame::maxSize of the last frame, and of frames within it:
+    graph::Capacity capacity;      // what the graph's images take
+    VkExtent2D outputSize{};       // what the output takes
+    std::optional<Values> values;  // of the method set
     Falloff falloff;
     std::vector<std::string> timedNames;
     std::vector<PassTime> timed;

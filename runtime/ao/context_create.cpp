@@ -1,10 +1,13 @@
 // create() and destroy(): adopting a host's device.
+#include <algorithm>
 #include <string>
 
 #include "ao/context.h"
 
 namespace obscura::ao {
 namespace {
+
+constexpr uint32_t kMostViews = 16;
 
 gpu::MemorySource memoryOf(const MemoryCallbacks& memory) {
     if (!memory.allocate) return {};
@@ -26,6 +29,7 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     if (!desc.physicalDevice) return refuse("physicalDevice is null");
     if (!desc.device) return refuse("device is null");
     if (!desc.getInstanceProcAddr) return refuse("getInstanceProcAddr is null");
+    if (desc.views < 1 || desc.views > kMostViews) return refuse("views is not from 1 to 16");
     if (!desc.memory.allocate != !desc.memory.free) return refuse("memory has one of its two functions; set both or neither");
     if (desc.format != VisibilityFormat::r16f && desc.format != VisibilityFormat::r8) return refuse("format is neither r16f nor r8");
 
@@ -38,7 +42,9 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     adopted.device = desc.device;
     adopted.queueFamily = desc.queueFamily;
     adopted.getInstanceProcAddr = desc.getInstanceProcAddr;
-    adopted.framesInFlight = desc.framesInFlight;
+    // A call of record() takes the place of the one this many calls ago: of a frame that the GPU has finished, as a frame has at most
+    // `views` calls.
+    adopted.framesInFlight = desc.framesInFlight * desc.views;
     adopted.pipelineCache = desc.pipelineCache;
     adopted.allocator = desc.allocator;
     adopted.memory = memoryOf(desc.memory);
@@ -55,7 +61,8 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     gpu::Status why = gpu::Status::ok;
     made->device = gpu::Device::adopt(adopted, error, &why);
     if (!made->device) return log(("obscura: " + error).c_str()), statusOf(why);
-    made->outputs.resize(made->device->framesInFlight() + 1);
+    made->outputs.resize(made->device->framesInFlight() + desc.views);
+    made->views = desc.views;
     made->shaders.add(shaders());
     made->graph = std::make_unique<graph::Graph>(*made->device);
     made->executor = std::make_unique<graph::Executor>(*made->device);

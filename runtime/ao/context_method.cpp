@@ -57,9 +57,8 @@ Status choose(Context& context, const char* id, const MethodSettings& settings) 
         return invalid(fmt::format("MethodSettings::falloff.length is {}; it must be finite and above 0", falloff.length));
     if (falloff.kind == FalloffKind::ramp && !(falloff.end > falloff.length))
         return invalid(fmt::format("MethodSettings::falloff.end is {}; a ramp ends beyond its length, {}", falloff.end, falloff.length));
-    const uint64_t before = context.device->memoryUse();
     if (!context.library->prepare(values, falloff.kind)) return statusOf(context.device->failure());
-    context.methodBytes += context.device->memoryUse() - before;
+    context.capacity.clear();
     context.values = std::move(values);
     context.falloff = falloff;
     return Status::ok;

@@ -21,7 +21,7 @@ graph::ImageId Crop::add(gpu::Device& device, const gpu::ShaderLibrary& shaders,
     graph.pass("prepare.crop", program)
         .read(source)
         .write(part)
-        .constants(shared::Crop{{origin.x, origin.y}, int32_t(stride), half ? 1 : 0})
+        .constants(shared::Crop{{origin.x, origin.y}, shared::sizeOf(size.width, size.height), int32_t(stride), half ? 1 : 0})
         .dispatch(size.width, size.height);
     return part;
 }

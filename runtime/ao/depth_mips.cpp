@@ -21,7 +21,7 @@ graph::ImageId DepthMips::add(graph::Graph& graph, const Inputs& inputs, const c
     graph.pass(passName, m_reduce)
         .read(inputs.depth)
         .write(mips)
-        .constants(shared::DepthMips{range, fade})
+        .constants(shared::DepthMips{shared::sizeOf(size.x, size.y), range, fade})
         .dispatch((size.x + 15) / 16 * 8, (size.y + 15) / 16 * 8);
     return mips;
 }

@@ -23,7 +23,7 @@ graph::ImageId EdgeBlur::add(graph::Graph& graph, graph::ImageId noisy, bool on,
             .read(noisy)
             .write(intermediate)
             .write(visibility)
-            .constants(shared::EdgeBlur{on ? kCentre : kOff})
+            .constants(shared::EdgeBlur{shared::sizeOf(width, height), on ? kCentre : kOff, 0})
             .dispatch(width, height);
         noisy = intermediate;
     }

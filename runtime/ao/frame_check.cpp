@@ -88,6 +88,15 @@ Status checkFrame(const Context& context, const Frame& frame, bool forecast, sha
     if (std::max(frame.size.width, frame.size.height) > most)
         return refuse(context, Status::unsupported,
             fmt::format("Frame::size is {} x {}; this device allows {} a side", frame.size.width, frame.size.height, most));
+    const VkExtent2D& largest = frame.maxSize;
+    const bool dynamic = largest.width > 0 || largest.height > 0;
+    if (dynamic && (frame.size.width > largest.width || frame.size.height > largest.height))
+        return invalid(fmt::format("Frame::size is {} x {}, more than Frame::maxSize, {} x {}", frame.size.width, frame.size.height,
+            largest.width, largest.height));
+    if (std::max(largest.width, largest.height) > most)
+        return refuse(context, Status::unsupported,
+            fmt::format("Frame::maxSize is {} x {}; this device allows {} a side", largest.width, largest.height, most));
+    if (frame.view >= context.views) return invalid(fmt::format("Frame::view is {}; DeviceDesc::views is {}", frame.view, context.views));
     const GivenImages given = imagesOf(frame, forecast);
     if (given.motion && (frame.motionScale[0] == 0.0f || frame.motionScale[1] == 0.0f))
         return invalid(

@@ -35,15 +35,16 @@ graph::ImageId Gather::add(graph::Graph& graph, const Inputs& inputs, graph::Ima
 
 graph::ImageId Gather::addMap(
     graph::Graph& graph, const Inputs& inputs, graph::ImageId shares, graph::ImageId receivers, uint32_t scale, uint32_t side) {
-    const graph::ImageId result = graph.image("interleave.gather", graph.desc(shares));
+    const gpu::ImageDesc desc = graph.desc(shares);
+    const graph::ImageId result = graph.image("interleave.gather", desc);
     graph.pass("interleave.gather", m_map)
         .read(inputs.viewBlock)
         .read(receivers)
         .read(shares)
         .read(shares)
         .write(result)
-        .constants(shared::GatherMap{side, float(scale)})
-        .dispatch(graph.desc(shares).width, graph.desc(shares).height);
+        .constants(shared::GatherMap{shared::sizeOf(desc.width, desc.height), side, float(scale)})
+        .dispatch(desc.width, desc.height);
     return result;
 }
 

@@ -31,12 +31,31 @@ Library::~Library() = default;
 
 bool Library::prepare(const MethodInfo& info, FalloffKind falloff) { return methodOf(Values(info), falloff) != nullptr; }
 
+std::pair<size_t, FalloffKind> Library::keyOf(const Values& values, FalloffKind falloff) const {
+    return {values.index(), registry()[values.index()].perFalloff ? falloff : FalloffKind{}};
+}
+
 Method* Library::methodOf(const Values& values, FalloffKind falloff) {
     if (!m_valid || values.index() == Values::kUnregistered) return nullptr;
-    const MethodEntry& entry = registry()[values.index()];
-    std::unique_ptr<Method>& method = m_methods[{values.index(), entry.perFalloff ? falloff : FalloffKind{}}];
-    if (!method) method = entry.create(m_device, m_shaders, falloff);
-    return method.get();
+    Made& made = m_methods[keyOf(values, falloff)];
+    const uint64_t before = m_device.memoryUse();
+    if (!made.method) {
+        made.method = registry()[values.index()].create(m_device, m_shaders, falloff);
+        made.bytes = m_device.memoryUse() - before;
+    }
+    return made.method.get();
+}
+
+void Library::trim(const Values& values, FalloffKind falloff) {
+    std::erase_if(m_methods, [key = keyOf(values, falloff)](const auto& made) { return made.first != key; });
+    std::erase_if(m_offScreen, [falloff](const auto& made) { return made.first != falloff; });
+    std::erase_if(m_views, [](const auto& view) { return !view.second.history.valid(); });
+}
+
+uint64_t Library::methodBytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [key, made] : m_methods) bytes += made.bytes;
+    return bytes;
 }
 
 bool Library::prepare(const Values& values, FalloffKind falloff) {
@@ -61,20 +80,28 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
         return {};
     }
     if (!prepare(values, falloff.kind)) return {};
-    view.temporal = values.info().needs && values["temporal"] > 0.0f && sources.motion ? 1 : 0;
-    const bool discard = frame.cut || m_last != &values.info();
+    view.temporal = values.info().needs && values["temporal"] > 0.0f ? 1 : 0;
+    Recorded& last = m_views[frame.view];
+    const bool discard = frame.cut || last.method != &values.info() || last.view.orthographic != view.orthographic;
     Inputs inputs = m_prepare.add(graph, frame, view, sources, falloff);
     if (sources.volume) inputs.volume = {sources.volume, graph.upload("volume", volume), frame.volume.structure, volume};
     const LayerMode use = layerModeOf(values);
     if (use != LayerMode::none) inputs.layers.thickness = sources.layers.thickness;
     if (use > LayerMode::first && sources.layers.thickness) inputs.layers.second = sources.layers.second;
-    previousFromEye(frame.eyeFromWorld, discard ? frame.eyeFromWorld : m_eyeFromWorld, inputs.previousFromEye);
-    for (int axis = 0; axis < 2; ++axis) inputs.motionOffset[axis] = m_jitter[axis] - frame.jitter[axis];
-    graph.onRecorded([this, info = &values.info(), eye = std::to_array(frame.eyeFromWorld), jitter = std::to_array(frame.jitter)] {
-        m_last = info;
-        std::copy(eye.begin(), eye.end(), m_eyeFromWorld);
-        std::copy(jitter.begin(), jitter.end(), m_jitter);
+    inputs.previousView = discard ? view : last.view;
+    previousFromEye(frame.eyeFromWorld, discard ? frame.eyeFromWorld : last.eyeFromWorld, inputs.previousFromEye);
+    std::copy_n(frame.jitter, 2, inputs.jitter);
+    std::copy_n(discard ? frame.jitter : last.jitter, 2, inputs.previousJitter);
+    graph.onRecorded([&last, view, method = &values.info(), eye = std::to_array(frame.eyeFromWorld), jitter = std::to_array(frame.jitter)] {
+        last.method = method;
+        last.view = view;
+        std::copy(eye.begin(), eye.end(), last.eyeFromWorld);
+        std::copy(jitter.begin(), jitter.end(), last.jitter);
     });
+    if (view.temporal && !sources.motion && !std::exchange(m_warned, true))
+        m_device.log(gpu::Severity::warning,
+            "obscurance: parameter `temporal` without Frame::motion: history follows the camera (Frame::eyeFromWorld), "
+            "and surfaces that move by themselves keep none");
     Method& method = *methodOf(values, falloff.kind);
     const MethodEntry& entry = registry()[values.index()];
     const uint32_t scale = values.info().needs ? 1u << values.count("scale") : 1;
@@ -91,7 +118,7 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     TemporalSettings temporal;
     temporal.history = values["temporal"];
     temporal.clip = values["temporal_clip"];
-    visibility = m_temporal.add(graph, inputs, visibility, temporal, discard, "temporal");
+    visibility = m_temporal.add(graph, inputs, visibility, temporal, last.history, discard, "temporal");
     ControlSettings controls{values["intensity"], values["power"], values["floor"], values["fade_from"], values["fade_to"]};
     if (entry.appliesPower) controls.power = 1.0f, controls.floor = 0.0f;
     return {m_controls.add(graph, inputs, visibility, controls), inputs};

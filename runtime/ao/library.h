@@ -25,6 +25,8 @@ public:
     // logged.
     bool prepare(const MethodInfo& info, FalloffKind falloff);
     bool prepare(const Values& values, FalloffKind falloff);
+    void trim(const Values& values, FalloffKind falloff);  // keeps only those, and histories of the views that have one
+    uint64_t methodBytes() const;                          // device memory that methods allocated when they were made
 
     // Adds the passes of prepare and of the values' method. No visibility, logged: the frame is invalid, or a pipeline cannot be made.
     struct Added {
@@ -32,9 +34,19 @@ public:
         Inputs inputs;              // what prepare made, linear depth among it
     };
     Added add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values);
-    void discardHistory() { m_last = nullptr; }  // the next frame begins without: as Frame::cut
+    void discardHistory() {  // the next frames begin without: as Frame::cut
+        for (auto& [index, recorded] : m_views) recorded.method = nullptr;
+    }
 
 private:
+    // What the last recorded frame of a view left.
+    struct Recorded {
+        graph::History history;
+        const MethodInfo* method = nullptr;  // null: there was none
+        float eyeFromWorld[16] = {};
+        float jitter[2] = {};
+        shared::View view{};
+    };
     Method* methodOf(const Values& values, FalloffKind falloff);  // made if need be; null: cannot be
     gpu::Device& m_device;
     const gpu::ShaderLibrary& m_shaders;
@@ -43,11 +55,14 @@ private:
     Controls m_controls;
     std::map<FalloffKind, std::unique_ptr<OffScreenPass>> m_offScreen;  // those that values have asked for
     Temporal m_temporal;
-    std::map<std::pair<size_t, FalloffKind>, std::unique_ptr<Method>> m_methods;  // by registry order; null: could not be made
-    const MethodInfo* m_last = nullptr;                                           // the last recorded frame's; null: there is no history
-    float m_eyeFromWorld[16] = {};                                                // the last recorded frame's
-    float m_jitter[2] = {};                                                       // the last recorded frame's
-    bool m_valid = false;
+    struct Made {
+        std::unique_ptr<Method> method;  // null: could not be made
+        uint64_t bytes = 0;              // of device memory
+    };
+    std::pair<size_t, FalloffKind> keyOf(const Values& values, FalloffKind falloff) const;
+    std::map<std::pair<size_t, FalloffKind>, Made> m_methods;  // by registry order
+    std::map<uint32_t, Recorded> m_views;                      // by Frame::view
+    bool m_valid = false, m_warned = false;                    // warned: history without motion was logged
 };
 
 }  // namespace obscura::ao

@@ -36,12 +36,13 @@ struct Inputs {
     graph::BufferId viewBlock;  // View as a uniform buffer
     graph::ImageId depth;       // R32F, view.size: linear depth, sky at view.skyDepth
     graph::ImageId normals;     // R32UI, view.size: geometric eye-space normals, packNormal()
-    graph::ImageId motion;      // two floats, view.size, optional: times motionScale, px from this frame's position to last frame's
+    graph::ImageId motion;      // two floats, view.size, optional: times motionScale, px of this frame from a position to last frame's
     float motionScale[2];
-    float motionOffset[2] = {0.0f, 0.0f};  // px, added to that
-    float previousFromEye[12];             // three rows: this frame's eye space -> last frame's, for points at rest in the world
-    LayerInputs layers;                    // optional; only those that the values use
-    VolumeInput volume;                    // optional
+    shared::View previousView;  // last frame's; without history this frame's
+    float previousFromEye[12];  // three rows: this frame's eye space -> last frame's, for points at rest in the world
+    float jitter[2] = {0.0f, 0.0f}, previousJitter[2] = {0.0f, 0.0f};  // px, by which a frame's image is moved beside its motion
+    LayerInputs layers;                                                // optional; only those that the values use
+    VolumeInput volume;                                                // optional
     shared::FalloffBlock falloff;
     Falloff falloffDesc;
 };

@@ -46,9 +46,9 @@ graph::ImageId OffScreenPass::add(
     const uint32_t width = (visible.x + kScale - 1) / kScale, height = (visible.y + kScale - 1) / kScale;
     const graph::ImageId map = graph.image("offscreen.map", {VK_FORMAT_R16_SFLOAT, width, height});
     const graph::ImageId receivers = graph.image("offscreen.receivers", {VK_FORMAT_R32G32_UINT, width, height});
-    const shared::OffscreenTrace trace{inputs.falloff, settings.rays, settings.stride, kScale, settings.what == OffScreen::hidden ? 1u : 0u,
-        kOffset, kGrain, std::min(blocking.reach, kFarthest), blocking.thickness, kOctave,
-        volumeRaySteps(inputs.volume.volume, inputs.falloff.reach, settings.stride, kOctave)};
+    const shared::OffscreenTrace trace{shared::sizeOf(width, height), inputs.falloff, settings.rays, settings.stride, kScale,
+        settings.what == OffScreen::hidden ? 1u : 0u, kOffset, kGrain, std::min(blocking.reach, kFarthest), blocking.thickness, kOctave,
+        volumeRaySteps(inputs.volume.volume, inputs.falloff.reach, settings.stride, kOctave), 0};
     const graph::ImageId layers = blocking.sheet >= 0.0f ? m_layerPass.add(graph, inputs, blocking.sheet) : graph::ImageId{};
     graph::Pass& pass = graph.pass("offscreen.trace", (layers ? m_layered : m_trace)[size_t(inputs.volume.structure)]);
     pass.read(inputs.viewBlock)

@@ -6,7 +6,8 @@ namespace obscura::ao {
 namespace {
 
 shared::ConvertNormals normalConstants(const Frame& frame) {
-    shared::ConvertNormals result{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, uint32_t(frame.normalEncoding), {}};
+    shared::ConvertNormals result{
+        {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, shared::sizeOf(frame.size.width, frame.size.height), uint32_t(frame.normalEncoding), 0};
     const float* m = frame.eyeFromWorld;
     if (frame.normalKind == NormalKind::world)
         for (int row = 0; row < 3; ++row) result.rows[row] = {m[row], m[4 + row], m[8 + row], 0};

@@ -47,7 +47,7 @@ Inputs Reduction::reduce(
         .read(inputs.normals)
         .write(reduced.depth)
         .write(reduced.normals)
-        .constants(shared::Reduce{{first.x, first.y}, int32_t(scale)})
+        .constants(shared::Reduce{{first.x, first.y}, shared::sizeOf(size.x, size.y), int32_t(scale), 0})
         .dispatch(size.x, size.y);
     for (graph::ImageId LayerInputs::* layer : {&LayerInputs::thickness, &LayerInputs::second}) {
         const graph::ImageId whole = inputs.layers.*layer;

@@ -25,7 +25,7 @@ const Parameter kShared[] = {
         "things lose detail first."},
     {"temporal", "", 0, 0.98f, 0, false, {},
         "Largest weight of the reprojected history; samples then rotate from frame to frame. 0: off. Higher is calmer and reacts more "
-        "slowly; needs motion vectors."},
+        "slowly. Without motion vectors history follows the camera, and moving objects have none."},
     {"temporal_clip", "sd", 0, 8, TemporalSettings{}.clip, false, {},
         "Clamps history to this many standard deviations of its neighbourhood; 0 turns clamping off. Lower flickers more, higher lets "
         "moved occluders leave trails."},

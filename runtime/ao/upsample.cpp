@@ -18,9 +18,9 @@ Status Upsample::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, 
 
 graph::ImageId Upsample::add(
     graph::Graph& graph, const Inputs& inputs, const Map& map, const UpsampleSettings& settings, const char* prefix, graph::ImageId other) {
-    const shared::Upsample constants{int32_t(settings.scale), settings.window, settings.range};
+    const uint32_t width = graph.desc(map.visibility).width, height = graph.desc(map.visibility).height;
+    const shared::Upsample constants{shared::sizeOf(width, height), int32_t(settings.scale), settings.window, settings.range, 0};
     const auto& visible = inputs.view.visible;
-    const uint32_t height = graph.desc(map.visibility).height;
     const std::string name = prefix;
     const graph::ImageId rows = graph.image(name + ".rows", {VK_FORMAT_R16_SFLOAT, visible.x, height});
     const graph::ImageId visibility = graph.image(name + ".visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});

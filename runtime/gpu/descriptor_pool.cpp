@@ -31,6 +31,12 @@ VkDescriptorSet DescriptorPool::make(const Program& program, uint32_t set, std::
     return made;
 }
 
+bool DescriptorPool::reserve(uint32_t sets) {
+    while (m_pools.size() * kSetsPerPool < sets)
+        if (!grow()) return false;
+    return true;
+}
+
 VkDescriptorSet DescriptorPool::allocate(VkDescriptorSetLayout layout) {
     for (;; ++m_current) {
         const bool fresh = m_current == m_pools.size();

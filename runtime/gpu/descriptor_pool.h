@@ -20,7 +20,8 @@ public:
     ~DescriptorPool();
     DescriptorPool(const DescriptorPool&) = delete;
 
-    void reset();  // the frame that used its sets has left the GPU
+    bool reserve(uint32_t sets);  // makes pools for so many in a frame; false: no memory
+    void reset();                 // the frame that used its sets has left the GPU
     // A set of a program, its bindings filled in their order. Null if there is no memory.
     VkDescriptorSet make(const Program& program, uint32_t set, std::span<const Descriptor> contents);
 

@@ -43,6 +43,10 @@ uint64_t Executor::bytes(Graph& graph) const {
     return graph::bytes(graph.recording(), needed, m_device.framesInFlight(), memory);
 }
 
+void Executor::trim() {
+    std::erase_if(m_pool, [&](const Pooled& pooled) { return pooled.lastUsed != m_lastFrame; });
+}
+
 Status Executor::prepare(Graph& graph, Plan& plan, Pending& histories) {
     Frame& current = frame();
     timings();
@@ -64,8 +68,10 @@ Status Executor::prepare(Graph& graph, Plan& plan, Pending& histories) {
     Status status = makePool(graph.m_recording, plan);
     if (status == Status::ok) status = makeUploads(graph, plan);
     if (status == Status::ok) status = makeHistories(graph, histories);
+    if (status == Status::ok && !current.sets.reserve(uint32_t(graph.passCount())))
+        status = gpu::fail(m_device, Status::outOfMemory, "graph: no pool of descriptor sets");
     if (status == Status::ok) status = makeSets(graph, plan);
-    if (status == Status::ok && timed()) status = current.timestamps.reserve(uint32_t(plan.steps.size()) + 1);
+    if (status == Status::ok && timed()) status = current.timestamps.reserve(uint32_t(graph.passCount()) + 1);
     return status;
 }
 
@@ -123,9 +129,9 @@ Status Executor::makeHistories(const Graph& graph, Pending& histories) {
         for (uint32_t k = 0; k < 2; ++k) {
             const Resource& resource = graph.m_recording.resources[resources[k]];
             const gpu::Image* image = &history->m_copies[k].image;
-            if (image->desc() != resource.desc) {
+            if (image->desc() != resource.made()) {
                 image = &histories[i][k];
-                const Status status = gpu::Image::create(m_device, resource.desc, resource.name.c_str(), histories[i][k]);
+                const Status status = gpu::Image::create(m_device, resource.made(), resource.name.c_str(), histories[i][k]);
                 if (status != Status::ok) return status;
             }
             m_physical[resources[k]] = {image->handle(), image->view(), image};

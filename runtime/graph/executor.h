@@ -21,6 +21,7 @@ public:
     // device lacked. Once in each of the device's frames: nextFrame() has been called since the last one that succeeded.
     gpu::Status execute(Graph& graph, VkCommandBuffer cmd);
 
+    void trim();  // gives back pooled images and buffers that the last recorded frame did not use
     void setTiming(bool on) { m_timing = on; }
     // Of the newest frame whose timestamps have arrived. Before execute(), reads those of the frame whose slot this frame reuses.
     const Timings& timings();

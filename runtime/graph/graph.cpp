@@ -50,7 +50,29 @@ void Pass::record(Record record) {
     m_recorded = true;
 }
 
-void Graph::begin(const Timings* timings) {
+bool Capacity::Slot::holds(const Resource& resource) const {
+    const gpu::ImageDesc& d = resource.desc;
+    return desc.format == d.format && desc.width >= d.width && desc.height >= d.height && desc.depth >= d.depth && desc.mips >= d.mips &&
+           bytes >= resource.bytes;
+}
+
+void Capacity::grow(const Graph& graph) {
+    std::map<std::string, size_t> count;
+    for (const Resource& resource : graph.m_recording.resources) {
+        if (resource.origin == Origin::imported) continue;
+        std::vector<Slot>& slots = m_slots[resource.name];
+        const size_t index = count[resource.name]++;
+        if (index == slots.size()) slots.emplace_back();
+        Slot& slot = slots[index];
+        const gpu::ImageDesc& d = resource.desc;
+        slot.desc = {d.format, std::max(slot.desc.width, d.width), std::max(slot.desc.height, d.height), std::max(slot.desc.depth, d.depth),
+            std::max(slot.desc.mips, d.mips)};
+        slot.bytes = std::max(slot.bytes, resource.bytes);
+    }
+    m_passCount = std::max(m_passCount, uint32_t(graph.m_passes.size()));
+}
+
+void Graph::begin(const Timings* timings, const Capacity* capacity) {
     m_timings = timings ? timings : &kNoTimings;
     m_recording = {};
     m_passes.clear();
@@ -58,9 +80,24 @@ void Graph::begin(const Timings* timings) {
     m_histories.clear();
     m_onRecorded.clear();
     m_prefix.clear();
+    m_capacity = capacity;
+    m_declared.clear();
+    m_fits = true;
 }
 
 uint32_t Graph::add(Resource resource, const Physical& physical) {
+    if (m_capacity && resource.origin != Origin::imported) {
+        const auto slots = m_capacity->m_slots.find(resource.name);
+        const size_t index = m_declared[resource.name]++;
+        const bool known = slots != m_capacity->m_slots.end() && index < slots->second.size();
+        if (known && slots->second[index].holds(resource)) {
+            resource.largest = slots->second[index].desc;
+            resource.largest.usage = resource.desc.usage;
+            resource.largestBytes = slots->second[index].bytes;
+        } else {
+            m_fits = false;
+        }
+    }
     m_recording.resources.push_back(std::move(resource));
     m_physical.push_back(physical);
     return uint32_t(m_physical.size() - 1);
@@ -114,15 +151,14 @@ Graph::HistoryPair Graph::history(std::string name, gpu::ImageDesc desc, History
     HistoryUse use{&history, {}};
     for (const uint32_t k : {read, write}) {
         const History::Copy& copy = history.m_copies[k];
-        use.resources[k] = add({.name = k == read ? name + ".previous" : name,
-            .origin = Origin::history,
-            .desc = desc,
-            .initial = copy.image.desc() == desc ? copy.states : std::vector<State>{},
-            .output = k == write});
+        use.resources[k] =
+            add({.name = k == read ? name + ".previous" : name, .origin = Origin::history, .desc = desc, .output = k == write});
+        Resource& resource = m_recording.resources[use.resources[k]];
+        if (copy.image.desc() == resource.made()) resource.initial = copy.states;
     }
     m_histories.push_back(use);
     const ImageId previous{use.resources[read]};
-    const bool valid = history.m_valid && history.m_copies[read].image.desc() == desc && !discard;
+    const bool valid = history.m_valid && history.m_copies[read].image.desc() == made(previous) && !discard;
     if (!valid)
         pass(std::move(name) + ".clear").use(previous, Access::transferWrite, true).record([previous](const PassContext& c) {
             const VkClearColorValue zero{};
@@ -156,7 +192,7 @@ bool Graph::resolve() {
     for (const Pass& pass : m_passes) {
         if (pass.m_program) pass.m_program->refresh();
         PassDesc& desc = m_recording.passes.emplace_back(pass.m_desc);
-        for (Use& use : desc.uses) use.mips = m_recording.resources[use.resource].desc.mips;
+        for (Use& use : desc.uses) use.mips = m_recording.resources[use.resource].made().mips;
         if (const std::string problem = resolve(pass, desc.uses); !problem.empty()) {
             m_device.log(gpu::Severity::error, fmt::format("graph: pass '{}': {}", desc.name, problem));
             return false;
@@ -186,7 +222,7 @@ std::string Graph::resolve(const Pass& pass, std::vector<Use>& uses) const {
         if (bound.writes != binding.writes)
             return fmt::format("'{}' is given as {}, the shader {} '{}'", resource.name, bound.writes ? "written" : "read",
                 binding.writes ? "writes" : "only reads", binding.name);
-        uses.push_back({bound.resource, bound.firstMip, std::min(bound.mips, resource.desc.mips), accessOf(binding),
+        uses.push_back({bound.resource, bound.firstMip, std::min(bound.mips, resource.made().mips), accessOf(binding),
             gpu::pipelineStages(program.stagesOf(binding))});
     }
     if (bindings.size() != pass.m_bound.size())

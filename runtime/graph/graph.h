@@ -8,8 +8,10 @@
 // The order of reads and writes is the binding order in set 0 of the shader. Attachments are not bindings.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -48,13 +50,35 @@ struct External {
     uint32_t mip = 0, layer = 0;                                          // that `view` shows
 };
 
+class Graph;
+
+// What the resources of a frame take at their largest, by name and, of those of one name, by their order. Frames that are declared with it
+// live in the same images, buffers and pieces of memory, whatever their sizes.
+class Capacity {
+public:
+    void grow(const Graph& graph);  // so that all that is declared there fits
+    void clear() { *this = {}; }
+
+private:
+    friend class Graph;
+    struct Slot {
+        gpu::ImageDesc desc;
+        uint64_t bytes = 0;
+        bool holds(const Resource& resource) const;
+    };
+    std::map<std::string, std::vector<Slot>> m_slots;
+    uint32_t m_passCount = 0;
+};
+
 class Graph {
 public:
     explicit Graph(gpu::Device& device) : m_device(device) {}
     Graph(const Graph&) = delete;
 
     // Forgets the last frame's declarations. `timings`: of an earlier frame, for declarations that depend on cost; kept by reference.
-    void begin(const Timings* timings = nullptr);
+    // `capacity`: what to make for those that are declared now; likewise.
+    void begin(const Timings* timings = nullptr, const Capacity* capacity = nullptr);
+    bool fits() const { return m_fits; }  // all that was declared since then, in the capacity that was given
 
     ImageId image(std::string name, gpu::ImageDesc desc);  // transient; usage is worked out
     ImageId import(std::string name, const External& image);
@@ -82,6 +106,8 @@ public:
     gpu::Device& device() const { return m_device; }       // for its limits and its log
     const Timings& timings() const { return *m_timings; }  // those given to begin(); without passes if none were
     const gpu::ImageDesc& desc(ResourceId id) const { return m_recording.resources[id.index].desc; }
+    const gpu::ImageDesc& made(ResourceId id) const { return m_recording.resources[id.index].made(); }                // the image behind it
+    size_t passCount() const { return std::max(m_passes.size(), m_capacity ? size_t(m_capacity->m_passCount) : 0); }  // most to come
     const std::string& name(ResourceId id) const { return m_recording.resources[id.index].name; }
     // What each pass declared so far writes, for "view any pass".
     struct Written {
@@ -95,6 +121,7 @@ public:
     const Pass& declared(uint32_t pass) const { return m_passes[pass]; }  // by its index in the recording, after resolve()
 
 private:
+    friend class Capacity;
     friend class Executor;
     struct HistoryUse {
         History* history;
@@ -113,6 +140,9 @@ private:
     std::vector<HistoryUse> m_histories;
     std::vector<std::function<void()>> m_onRecorded;
     std::string m_prefix;
+    const Capacity* m_capacity = nullptr;
+    std::map<std::string, size_t> m_declared;  // how many of each name, with a capacity
+    bool m_fits = true;
 };
 
 }  // namespace obscura::graph

@@ -49,13 +49,13 @@ void assignSlots(const Recording& recording, const std::vector<bool>& live, Plan
     std::vector<int> freeFrom(result.slots.size(), -1);  // pass after which a slot is free again
     for (uint32_t i : order) {
         const Resource& resource = recording.resources[i];
-        gpu::ImageDesc desc = resource.desc;
+        gpu::ImageDesc desc = resource.made();
         desc.usage |= usage[i];
         size_t slot = 0;
-        const auto fits = [&](const Slot& s) { return s.bytes == resource.bytes && s.desc == desc && freeFrom[slot] < first[i]; };
+        const auto fits = [&](const Slot& s) { return s.bytes == resource.madeBytes() && s.desc == desc && freeFrom[slot] < first[i]; };
         while (slot < result.slots.size() && !fits(result.slots[slot])) ++slot;
         if (slot == result.slots.size()) {
-            result.slots.push_back({desc, resource.bytes, std::vector<State>(desc.mips)});
+            result.slots.push_back({desc, resource.madeBytes(), std::vector<State>(desc.mips)});
             freeFrom.push_back(-1);
         }
         freeFrom[slot] = resource.output ? int(recording.passes.size()) : last[i];
@@ -70,14 +70,15 @@ void placeUploads(const Recording& recording, Plan& result) {
     for (size_t i = 0; i < recording.resources.size(); ++i) {
         const Resource& resource = recording.resources[i];
         if (resource.origin != Origin::upload) continue;
+        const uint64_t bytes = resource.madeBytes();
         uint32_t chunk = 0;
-        while (chunk < used.size() && used[chunk] + resource.bytes > result.chunks[chunk]) ++chunk;
+        while (chunk < used.size() && used[chunk] + bytes > result.chunks[chunk]) ++chunk;
         if (chunk == used.size()) {
-            result.chunks.push_back(std::max(kUploadChunk, resource.bytes));
+            result.chunks.push_back(std::max(kUploadChunk, bytes));
             used.push_back(0);
         }
         result.placements[i] = {chunk, used[chunk]};
-        used[chunk] += (resource.bytes + kUploadAlignment - 1) / kUploadAlignment * kUploadAlignment;
+        used[chunk] += (bytes + kUploadAlignment - 1) / kUploadAlignment * kUploadAlignment;
     }
 }
 
@@ -131,7 +132,7 @@ struct Builder {
         if (resource.isBuffer) next.layout = VK_IMAGE_LAYOUT_UNDEFINED;
         for (uint32_t mip = use.firstMip; mip < use.firstMip + use.mips; ++mip) {
             const bool undefined = resource.origin == Origin::transient && !written[use.resource][mip];
-            if (undefined && !next.writes)
+            if (undefined && !next.writes && mip < resource.desc.mips)
                 result.problems.push_back("pass '" + pass + "' reads '" + resource.name + "' before anything wrote it");
             if (next.writes) written[use.resource][mip] = true;
             Barrier barrier{use.resource, mip, 1};
@@ -152,8 +153,8 @@ Plan plan(const Recording& recording, std::vector<Slot> slots, std::vector<uint6
     Builder builder{recording, result, {}};
     for (const Resource& resource : recording.resources) {
         result.finalStates.push_back(resource.initial);
-        result.finalStates.back().resize(resource.desc.mips);
-        builder.written.emplace_back(resource.desc.mips, false);
+        result.finalStates.back().resize(resource.made().mips);
+        builder.written.emplace_back(resource.made().mips, false);
     }
     for (uint32_t p = 0; p < recording.passes.size(); ++p) {
         if (!live[p]) continue;
@@ -175,7 +176,7 @@ uint64_t bytes(const Recording& recording, const Plan& plan, uint32_t framesInFl
     for (const Slot& slot : plan.slots)
         total += slot.bytes ? memory.buffer(slot.bytes, kPoolBufferUsage, gpu::Memory::device) : memory.image(slot.desc);
     for (const Resource& resource : recording.resources)
-        if (resource.origin == Origin::history) total += memory.image(resource.desc);
+        if (resource.origin == Origin::history) total += memory.image(resource.made());
     for (const uint64_t chunk : plan.chunks) total += framesInFlight * memory.buffer(chunk, kUploadUsage, gpu::Memory::upload);
     return total;
 }

@@ -41,6 +41,12 @@ struct Resource {
     std::vector<State> initial;   // history, imported: one a mip (buffers: one); transients start from their slot's
     VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED;  // imported images: in this layout after the last pass; UNDEFINED: as it comes
     bool output = false;                                    // what writes it is not culled
+    // What is made for it, where that is larger: a description with a format, a count above 0. See Capacity in graph.h.
+    gpu::ImageDesc largest;
+    uint64_t largestBytes = 0;
+
+    const gpu::ImageDesc& made() const { return largest.format == VK_FORMAT_UNDEFINED ? desc : largest; }
+    uint64_t madeBytes() const { return largestBytes ? largestBytes : bytes; }
 };
 
 struct Use {

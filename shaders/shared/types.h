@@ -13,6 +13,7 @@ struct alignas(8) uvec2 { uint32_t x, y; };
 struct alignas(16) uvec4 { uint32_t x, y, z, w; };
 struct alignas(8) ivec2 { int32_t x, y; };
 struct mat4 { float m[16]; };  // columns
+inline ivec2 sizeOf(uint32_t width, uint32_t height) { return {int32_t(width), int32_t(height)}; }
 }  // namespace obscura::shared
 #define OBSCURA_SHARED_BEGIN namespace obscura::shared {
 #define OBSCURA_SHARED_END }

@@ -26,7 +26,7 @@ protected:
         std::function<float(int x, int y)> depth = [](int, int) { return 2.0f; };
         std::array<float, 2> motion{0.0f, 0.0f};
         std::array<float, 3> normal{0.0f, 0.0f, 1.0f};
-        float advanced = 0.0f;  // metres that the camera moved forward since last frame
+        float advanced = 0.0f, aside = 0.0f;  // metres that the camera moved forward and to the right since last frame
         bool hasMotion = true;
         bool orthographic = false;
         float away = 0.0f;  // metres by which the camera's plane is farther back
@@ -66,7 +66,10 @@ protected:
         inputs.normals = image(kept[1], VK_FORMAT_R32_UINT, width, height, normals);
         if (frame.hasMotion) inputs.motion = image(kept[2], VK_FORMAT_R32G32_SFLOAT, width, height, motion);
         inputs.motionScale[0] = inputs.motionScale[1] = 1.0f;
-        const float rows[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -frame.advanced};
+        const shared::vec4& u = inputs.view.unproject;
+        inputs.view.project = {1.0f / u.x, 1.0f / u.y, -u.z / u.x, -u.w / u.y};
+        inputs.previousView = inputs.view;
+        const float rows[12] = {1, 0, 0, frame.aside, 0, 1, 0, 0, 0, 0, 1, -frame.advanced};
         std::copy_n(rows, 12, inputs.previousFromEye);
         std::vector<uint16_t> halves(visibility.size());
         std::transform(visibility.begin(), visibility.end(), halves.begin(), half);

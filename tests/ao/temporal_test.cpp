@@ -11,10 +11,17 @@ class TemporalTest : public FilterTest<Temporal> {
 protected:
     Plane run(const Frame& frame, const TemporalSettings& settings) {
         return PassTest::run(frame, [&](graph::Graph& graph, const Inputs& inputs, graph::ImageId source) {
-            return m_filter.add(graph, inputs, source, settings, std::exchange(m_discard, false), "temporal");
+            return m_filter.add(graph, inputs, source, settings, m_history, std::exchange(m_discard, false), "temporal");
         });
     }
 
+    void TearDown() override {
+        m_device.waitIdle();
+        m_history = {};
+        FilterTest::TearDown();
+    }
+
+    graph::History m_history;
     bool m_discard = false;  // history, in the next frame
 };
 
@@ -115,11 +122,20 @@ TEST_F(TemporalTest, reprojectsBySubpixelMotion) {
 TEST_F(TemporalTest, discardsHistoryAtDisocclusions) {
     const auto wall = [](int edge) { return [=](int x, int) { return x < edge ? 1.0f : 2.0f; }; };
     // The camera plane of an orthographic view is arbitrary.
-    for (const auto& [orthographic, away] : {std::pair{false, 0.0f}, {true, 0.0f}, {true, 1000.0f}}) {
+    struct Case {
+        bool orthographic;
+        float away;
+        bool hasMotion;
+    };
+    for (const auto& [orthographic, away, hasMotion] : {Case{false, 0.0f, true}, {true, 0.0f, true}, {true, 1000.0f, true},
+             {false, 0.0f, false}, {true, 0.0f, false}, {true, 1000.0f, false}}) {
         m_discard = true;
-        for (int i = 0; i < 4; ++i)
-            run({.visibility = flat(0.2f), .depth = wall(20), .orthographic = orthographic, .away = away}, papers(0.9f));
-        const Plane last = run({.visibility = flat(0.8f), .depth = wall(10), .orthographic = orthographic, .away = away}, papers(0.9f));
+        const auto frame = [&](float visibility, int edge) {
+            return Frame{
+                .visibility = flat(visibility), .depth = wall(edge), .hasMotion = hasMotion, .orthographic = orthographic, .away = away};
+        };
+        for (int i = 0; i < 4; ++i) run(frame(0.2f, 20), papers(0.9f));
+        const Plane last = run(frame(0.8f, 10), papers(0.9f));
         for (uint32_t y = 0; y < kHeight; ++y)
             for (uint32_t x = 0; x < kWidth; ++x) {  // 10..19: the far wall is disoccluded
                 if (x >= 10 && x < 20) ASSERT_NEAR(at(last, x, y), 0.8f, 1e-3f) << x << ", " << away;
@@ -142,29 +158,59 @@ TEST_F(TemporalTest, discardsHistoryOutsideTheImage) {
 
 // A camera that moves towards a wall sees the same surface at smaller depths; the camera's motion keeps its history valid.
 TEST_F(TemporalTest, keepsHistoryWhenTheCameraMovesForward) {
-    const auto afterMoving = [&](float metres) {
+    const auto afterMoving = [&](float metres, bool hasMotion) {
         m_discard = true;
         run({.visibility = flat(0.2f)}, papers(0.9f));
-        return at(run({.visibility = flat(0.8f), .depth = flat(1.8f), .advanced = metres}, papers(0.9f)), kWidth / 2, kHeight / 2);
+        const Frame frame{.visibility = flat(0.8f), .depth = flat(1.8f), .advanced = metres, .hasMotion = hasMotion};
+        return at(run(frame, papers(0.9f)), kWidth / 2, kHeight / 2);
     };
-    EXPECT_NEAR(afterMoving(0.2f), 0.5f, 1e-3f);
-    EXPECT_NEAR(afterMoving(0.0f), 0.8f, 1e-3f);
+    EXPECT_NEAR(afterMoving(0.2f, true), 0.5f, 1e-3f);
+    EXPECT_NEAR(afterMoving(0.0f, true), 0.8f, 1e-3f);
+    EXPECT_NEAR(afterMoving(0.2f, false), 0.5f, 1e-3f);
+    EXPECT_NEAR(afterMoving(0.0f, false), 0.8f, 1e-3f);
+}
+
+// Without motion images an object that moves by itself, here to the right by 2 px a frame, takes no history from the wall behind it and
+// leaves none on the wall.
+TEST_F(TemporalTest, withoutMotionAMovedObjectLeavesNoTrail) {
+    for (const bool orthographic : {false, true}) {
+        m_discard = true;
+        const auto covers = [](int i, int x) { return x >= 2 * i && x < 2 * i + 8; };
+        for (int i = 0; i < 14; ++i) {
+            const Plane plane = run({.visibility = [=](int x, int) { return covers(i, x) ? 0.9f : 0.4f; },
+                                        .depth = [=](int x, int) { return covers(i, x) ? 1.0f : 2.0f; },
+                                        .hasMotion = false,
+                                        .orthographic = orthographic},
+                {});
+            for (int x = 0; x < int(kWidth); ++x)
+                ASSERT_NEAR(at(plane, uint32_t(x), 12), covers(i, x) ? 0.9f : 0.4f, 0.012f) << i << " " << x;
+        }
+    }
+}
+
+// A camera that moves to the right by 0.1 m sees the wall, 2 m away, 1 px to the left.
+TEST_F(TemporalTest, withoutMotionHistoryFollowsTheCamera) {
+    const auto ramp = [](int frame) { return [=](int x, int) { return 0.2f + 0.01f * (float(x) + 1.5f * float(frame)); }; };
+    Plane last;
+    for (int i = 0; i < 6; ++i) last = run({.visibility = ramp(i), .aside = 0.15f, .hasMotion = false}, papers(0.9f));
+    for (uint32_t x = 0; x < kWidth - 12; ++x) ASSERT_NEAR(at(last, x, 12), ramp(5)(int(x), 12), 1.5e-3f) << x;
 }
 
 // The floor rests, the occluder above it moves.
 TEST_F(TemporalTest, discardsTheShadowOfAMovedOccluder) {
     const auto foot = [](int x, int y) { return x >= 10 && x < 30 && y >= 6 && y < 18 ? 0.3f : 1.0f; };
-    const auto framesToClear = [&](const TemporalSettings& settings) {
+    const auto framesToClear = [&](const TemporalSettings& settings, bool hasMotion = true) {
         m_discard = true;
-        for (int i = 0; i < 20; ++i) run({.visibility = foot}, settings);
+        for (int i = 0; i < 20; ++i) run({.visibility = foot, .hasMotion = hasMotion}, settings);
         for (int i = 1; i < 60; ++i) {
             float worst = 0.0f;
-            for (const float v : run({}, settings)) worst = std::max(worst, 1.0f - v);
+            for (const float v : run({.hasMotion = hasMotion}, settings)) worst = std::max(worst, 1.0f - v);
             if (worst <= 0.07f) return i;
         }
         return 60;
     };
     EXPECT_LE(framesToClear({}), 2);
+    EXPECT_LE(framesToClear({}, false), 2);
     EXPECT_GT(framesToClear(papers(0.9f)), 15);
 }
 
@@ -174,13 +220,13 @@ TEST_F(TemporalTest, resetDiscardsAllHistory) {
     for (const float v : run({.visibility = flat(0.8f)}, papers(0.9f))) ASSERT_NEAR(v, 0.8f, 1e-3f);
 }
 
-TEST_F(TemporalTest, withoutMotionOrHistoryNoPassIsAdded) {
-    run({.hasMotion = false}, {});
-    EXPECT_TRUE(m_passedThrough);
-    run({}, {.history = 0.0f});
-    EXPECT_TRUE(m_passedThrough);
-    run({}, {});
-    EXPECT_FALSE(m_passedThrough);
+TEST_F(TemporalTest, withoutHistoryNoPassIsAdded) {
+    for (const bool hasMotion : {true, false}) {
+        run({.hasMotion = hasMotion}, {.history = 0.0f});
+        EXPECT_TRUE(m_passedThrough);
+        run({.hasMotion = hasMotion}, {});
+        EXPECT_FALSE(m_passedThrough);
+    }
 }
 
 TEST_F(TemporalTest, skyIsUnchanged) {

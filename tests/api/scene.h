@@ -35,13 +35,14 @@ struct Camera {
 struct Geometry {
     VkExtent2D visible{160, 90}, guard{16, 16};
     bool orthographic = false, flipped = false;
-    glm::dvec2 shift{0, 0};      // off-centre: eye.xy per metre of depth in the middle of the image
-    double scale = 1.0;          // of the world
+    glm::dvec2 shift{0, 0};  // off-centre: eye.xy per metre of depth in the middle of the image
+    double scale = 1.0;      // of the world
+    double zoom = 1.0;
     Camera camera;               // of the world at scale 1
     glm::dvec3 origin{0, 0, 0};  // origin of the scene in the host's world, metres
 
     VkExtent2D size() const { return {visible.width + 2 * guard.width, visible.height + 2 * guard.height}; }
-    double focal() const { return 0.5 * std::max(double(visible.height), visible.width * 9.0 / 16.0) / std::tan(0.5236); }  // px
+    double focal() const { return zoom * 0.5 * std::max(double(visible.height), visible.width * 9.0 / 16.0) / std::tan(0.5236); }  // px
     // Eye-space x and y of a pixel's ray, a metre away (orthographic: anywhere).
     glm::dvec2 slope(double x, double y) const {
         const glm::dvec2 s{(x + 0.5 - 0.5 * size().width) / focal(), (y + 0.5 - 0.5 * size().height) / focal() * (flipped ? 1.0 : -1.0)};

@@ -1,10 +1,12 @@
 #include "gpu_cost/workload.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include <fmt/format.h>
 
+#include "ao/common/constants.h"
 #include "ao/layer_pass.h"
 #include "ao/library.h"
 #include "app/complaint.h"
@@ -65,6 +67,10 @@ Workload workloadOf(gpu::Device& device, const gpu::ShaderLibrary& shaders, cons
         if (!pass.program()) continue;
         PassLoad one{graph.recording().passes[step.pass].name, pass.program()->shader(), pass.program()->specialization(), {}, 1, 0};
         one.constants.assign(pass.constants().begin(), pass.constants().end());
+        if (one.shader.starts_with("ao/common/temporal.comp")) {  // the first frame has no history, all later ones have
+            const uint32_t valid = 1;
+            std::memcpy(one.constants.data() + offsetof(shared::Reproject, valid), &valid, sizeof(valid));
+        }
         for (size_t axis = 0; axis < 3; ++axis) {
             const uint32_t group = pass.program()->workgroup()[axis];
             one.invocations *= (pass.invocations()[axis] + group - 1) / group * group;

@@ -32,7 +32,7 @@ layout(push_constant) uniform Block { Crop constants; };
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(part)))) return;
+    if (any(greaterThanEqual(p, constants.size))) return;
     ivec2 q = (constants.origin + p * constants.stride) >> constants.shift;
     imageStore(part, p, texelFetch(source, min(q, SIZE_OF(source) - 1), 0));
 }

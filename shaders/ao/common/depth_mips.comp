@@ -25,7 +25,7 @@ float reduce(uvec2 texel, vec4 z) {  // z: of (0,0), (1,0), (0,1), (1,1)
 }
 
 void main() {
-    ivec2 last = imageSize(depth) - 1, padded = paddedSize(uvec2(last + 1)), quad = ivec2(gl_GlobalInvocationID.xy),
+    ivec2 last = constants.size - 1, padded = paddedSize(uvec2(last + 1)), quad = ivec2(gl_GlobalInvocationID.xy),
           own = ivec2(gl_LocalInvocationID.xy);
     vec4 z;
     for (int i = 0; i < 4; ++i) {

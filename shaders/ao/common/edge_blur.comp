@@ -15,7 +15,7 @@ const float kDiagonal = 0.85 * 0.5;
 const float kLeakFrom = 1.5, kLeak = 0.5;  // if fewer than kLeakFrom sides are connected, all are raised by up to kLeak
 
 void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = imageSize(noisy) - 1;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = constants.size - 1;
     if (any(greaterThan(p, last))) return;
     ivec2 low = max(p - 1, 0), high = min(p + 1, last);
     uint c = imageLoad(noisy, p).x;

@@ -14,7 +14,7 @@ layout(set = 0, binding = 3) uniform sampler2D open;
 layout(set = 0, binding = 4, r16f) uniform writeonly image2D visibility;
 layout(push_constant) uniform Block { GatherMap constants; };
 
-ivec2 pixels(View view) { return imageSize(receivers); }
+ivec2 pixels(View view) { return constants.size; }
 float surfaceAt(View view, ivec2 p, out vec3 here, out vec3 n) {
     uvec2 receiver = imageLoad(receivers, p).xy;
     float z = uintBitsToFloat(receiver.x);

@@ -10,7 +10,7 @@ layout(push_constant) uniform Block { ConvertNormals constants; };
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(normals)))) return;
+    if (any(greaterThanEqual(p, constants.size))) return;
     vec3 n = unpackNormal(texelFetch(source, p, 0).x);
     n = normalize(vec3(dot(constants.rows[0].xyz, n), dot(constants.rows[1].xyz, n), dot(constants.rows[2].xyz, n)));
     imageStore(normals, p, uvec4(packNormal(n)));

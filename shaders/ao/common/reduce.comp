@@ -11,8 +11,8 @@ layout(push_constant) uniform Block { Reduce constants; };
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(reducedDepth)))) return;
-    ivec2 q = min(constants.first + p * constants.scale, imageSize(depth) - 1);
+    if (any(greaterThanEqual(p, constants.size))) return;
+    ivec2 q = constants.first + p * constants.scale;
     imageStore(reducedDepth, p, imageLoad(depth, q));
     imageStore(reducedNormals, p, imageLoad(normals, q));
 }

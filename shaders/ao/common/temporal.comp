@@ -1,11 +1,13 @@
-// Temporal reprojection of visibility. History is read at the motion vector, bilinearly from those of its four pixels that are in the plane
-// of this pixel's surface, as last frame's camera saw it, and have a similar normal. It is clamped to the spread of the current frame
-// around the pixel, so that moved occluders leave no trail; clamping also reduces the number of accumulated frames.
+// Temporal reprojection of visibility. History is read at the motion vector or, with CAMERA, where last frame's camera saw the surface if
+// it is at rest [Hoang 2012, eq. 12], bilinearly from those of its four pixels that are in the plane of this pixel's surface, as that
+// camera saw it, and have a similar normal. Last frame's picture may have another size and projection. History is clamped to the spread of
+// the current frame around the pixel, so that moved occluders leave no trail; clamping also reduces the number of accumulated frames.
 // Spatial spread misses two kinds of noise: errors that are smooth in space and change as a surface moves over the image, and noise of
 // surfaces one pixel wide. So each pixel also keeps its mean change from frame to frame (unrest), which widens the clamp. For a pixel
-// without motion only changes that reverse direction count, because a steady change is a moving shadow.
-// Visibility is kept in 14 bits: in 8 bits or a half, slow averages stop 1/255 short of their target.
+// without motion only changes that reverse direction count, because a steady change is a moving shadow. Visibility is kept in 14 bits: in 8
+// bits or a half, slow averages stop 1/255 short of their target.
 #version 460
+#pragma variant CAMERA
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/constants.h"
 #include "shared/octahedral.glsl"
@@ -14,11 +16,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
-layout(set = 0, binding = 3) uniform sampler2D motion;
-layout(set = 0, binding = 4, r16f) uniform readonly image2D current;
-layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2D history;
-layout(set = 0, binding = 6, r16f) uniform writeonly image2D result;
-layout(set = 0, binding = 7, rg32ui) uniform writeonly uimage2D newHistory;
+layout(set = 0, binding = 3, r16f) uniform readonly image2D current;
+layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D history;
+layout(set = 0, binding = 5, r16f) uniform writeonly image2D result;
+layout(set = 0, binding = 6, rg32ui) uniform writeonly uimage2D newHistory;
+#ifndef CAMERA
+layout(set = 0, binding = 7) uniform sampler2D motion;
+#endif
 layout(push_constant) uniform Block { Reproject constants; };
 
 const float kLongest = 63.0;  // maximum of accumulated frames
@@ -29,15 +33,20 @@ const float kUnrestUnit = 1.0 / 16384.0;  // of visibility; maximum 1/8
 // Depth in 20 bits: the highest of a float. Orthographic depths may be large beside what they differ by, so there only their remainder by a
 // period is kept, in even steps. Sky is then any depth, but has no accumulated frames.
 layout(constant_id = 0) const bool kOrthographic = false;
-float periodOf(View view) { return 256.0 * view.orthographicDepth; }
+float periodOf(float orthographicDepth) { return 256.0 * orthographicDepth; }
 uint depthBits(View view, float z) {
-    return kOrthographic ? uint(fract(z / periodOf(view)) * 1048575.0) << 12 : floatBitsToUint(z) & 0xfffff000u;
+    return kOrthographic ? uint(fract(z / periodOf(view.orthographicDepth)) * 1048575.0) << 12 : floatBitsToUint(z) & 0xfffff000u;
 }
-// The depth of these bits; orthographic: the one nearest to `expected`.
-float depthOf(View view, uint bits, float expected) {
+// The depth of these bits of last frame; orthographic: the one nearest to `expected`.
+float previousDepthOf(uint bits, float expected) {
     if (!kOrthographic) return uintBitsToFloat(bits & 0xfffff000u);
-    float off = float(bits >> 12) / 1048575.0 - expected / periodOf(view);
-    return expected + (off - round(off)) * periodOf(view);
+    float period = periodOf(constants.previousOrthographicDepth), off = float(bits >> 12) / 1048575.0 - expected / period;
+    return expected + (off - round(off)) * period;
+}
+// In last frame's eye space.
+vec3 previousPosition(vec2 texel, float z) {
+    vec2 xy = texel * constants.previousUnproject.xy + constants.previousUnproject.zw;
+    return vec3(xy * (kOrthographic ? 1.0 : z), -z);
 }
 // The other bits: 11 of unrest, then 1 if the last change was a rise.
 uint packDepth(View view, float z, float unrest, bool rose) {
@@ -69,22 +78,28 @@ void main() {
     vec4 r0 = constants.previousFromEye[0], r1 = constants.previousFromEye[1], r2 = constants.previousFromEye[2];
     vec3 previous = vec3(dot(r0.xyz, here) + r0.w, dot(r1.xyz, here) + r1.w, dot(r2.xyz, here) + r2.w);
     vec3 previousNormal = vec3(dot(r0.xyz, n), dot(r1.xyz, n), dot(r2.xyz, n));
-    vec2 moved = texelFetch(motion, p + guard, 0).xy * constants.motionScale + constants.motionOffset;
-    vec2 at = vec2(p) + moved;  // in texel centres of the visible part
-    // A moving receiver was elsewhere: the plane goes through its pixel of last frame instead.
     float previousDepth = -previous.z;
-    float plane = dot(eyePosition(view, at + 0.5 + vec2(guard), previousDepth), previousNormal);
+    vec4 texel = constants.previousTexel;
+#ifdef CAMERA
+    vec2 at = previous.xy / (kOrthographic ? 1.0 : previousDepth) * texel.xy + texel.zw;
+    float plane = dot(previous, previousNormal);
+#else
+    vec2 at = vec2(p) * texel.xy + texel.zw + texelFetch(motion, p + guard, 0).xy * constants.motionScale;
+    // A moving receiver was elsewhere: the plane goes through its pixel of last frame instead.
+    float plane = dot(previousPosition(at, previousDepth), previousNormal);
+#endif
     farthest *= kOrthographic ? view.orthographicDepth : previousDepth;
+    ivec2 previousLast = ivec2(constants.previousVisible) - 1;
 
     vec2 corner = floor(at), fraction = at - corner;
     float sum = 0.0, frameSum = 0.0, unrest = 0.0, riseSum = 0.0, weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1), q = ivec2(corner) + step;
-        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThanEqual(q, last));
-        ivec2 c = clamp(q, ivec2(0), last);
+        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThanEqual(q, previousLast));
+        ivec2 c = clamp(q, ivec2(0), previousLast);
         uvec2 stored = imageLoad(history, c).xy;
-        float zq = depthOf(view, stored.x, previousDepth);
-        float off = abs(dot(eyePosition(view, vec2(c + guard) + 0.5, zq), previousNormal) - plane);
+        float zq = previousDepthOf(stored.x, previousDepth);
+        float off = abs(dot(previousPosition(vec2(c), zq), previousNormal) - plane);
         vec3 m = fromOctahedron(vec2(stored.yy >> uvec2(20, 26) & 63u) * (2.0 / 63.0) - 1.0);
         bool same = inside && off <= farthest && dot(m, previousNormal) >= leastCosine;
         vec2 w2 = mix(1.0 - fraction, fraction, vec2(step));

@@ -19,7 +19,7 @@ layout(constant_id = 0) const uint joins = 0;  // 1: the obscurance is subtracte
 void main() {
     View view = viewBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(result)))) return;
+    if (any(greaterThanEqual(p, ivec2(view.visible)))) return;
     int every = constants.scale;
     ivec2 guard = ivec2(view.guard), last = ivec2(view.visible) - 1 + guard, own = p + guard;
     float z = imageLoad(depth, own).x;
@@ -31,7 +31,7 @@ void main() {
     vec3 n = unpackNormal(imageLoad(normals, own).x);
     float inverseWindow = 1.0 / constants.window, inverseRange = 1.0 / constants.range;
 
-    int count = imageSize(source).y, reach = int(0.5 * constants.window);
+    int count = constants.size.y, reach = int(0.5 * constants.window);
     float nearest = imageLoad(source, ivec2(p.x, min(p.y / every, count - 1))).x;
     int from = max((p.y - reach) / every, 0), to = min((p.y + reach) / every, count - 1);
     float sum = 0.0, weight = 0.0;

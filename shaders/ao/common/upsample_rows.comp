@@ -18,7 +18,7 @@ layout(push_constant) uniform Block { Upsample constants; };
 void main() {
     View view = viewBlock;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(result)))) return;
+    if (p.x >= int(view.visible.x) || p.y >= constants.size.y) return;
     int every = constants.scale;
     ivec2 own = min(p * ivec2(1, every), ivec2(view.visible) - 1) + ivec2(view.guard);
     float z = imageLoad(depth, own).x;
@@ -30,7 +30,7 @@ void main() {
     vec3 n = unpackNormal(imageLoad(normals, own).x);
     float inverseWindow = 1.0 / constants.window, inverseRange = 1.0 / constants.range, middle = 0.5 * float(every);
 
-    int count = imageSize(source).x, reach = int(0.5 * constants.window);
+    int count = constants.size.x, reach = int(0.5 * constants.window);
     float nearest = imageLoad(source, ivec2(min(p.x / every, count - 1), p.y)).x;
     int from = max((p.x - reach) / every, 0), to = min((p.x + reach) / every, count - 1);
     float sum = 0.0, weight = 0.0;

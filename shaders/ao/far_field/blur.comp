@@ -13,7 +13,7 @@ layout(set = 0, binding = 3, r16f) uniform writeonly image2D result;
 layout(push_constant) uniform Block { FarFieldBlur constants; };
 
 void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = imageSize(source) - 1, guard = ivec2(view.guard);
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy), last = ivec2(view.visible) - 1, guard = ivec2(view.guard);
     if (any(greaterThan(p, last))) return;
     float most = constants.threshold, here = imageLoad(source, p).x, sum = 0.0, count = 0.0;
     if (isSky(view, imageLoad(depth, p + guard).x)) {

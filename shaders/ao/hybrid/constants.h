@@ -5,6 +5,7 @@
 OBSCURA_SHARED_BEGIN
 
 struct HybridTrace {  // trace.comp
+    ivec2 size;            // of the map, px
     FalloffBlock falloff;
     uint rays;
     uint steps;            // most steps of a ray; that many if they are equal
@@ -18,7 +19,7 @@ struct HybridTrace {  // trace.comp
     uint octave;           // log2 of the number of steps an octave
     uint equal;            // 1: equal steps in one level
 };
-OBSCURA_SHARED_SIZE(HybridTrace, 56);
+OBSCURA_SHARED_SIZE(HybridTrace, 64);
 
 OBSCURA_SHARED_END
 #endif

@@ -22,7 +22,7 @@ void main() {
     uint rayCount = constants.rays, stepCount = constants.steps;
     float coneCosine = constants.cone, jitterOfSteps = constants.jitter;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(map)))) return;
+    if (any(greaterThanEqual(p, constants.size))) return;
     vec3 here, n;
     if (!receive(view, p, int(constants.scale), here, n)) return;
 

@@ -26,7 +26,7 @@ const float kPlane = 1000.0;  // per plane distance / depth: half the weight at 
 
 void main() {
     View view = viewBlock;  // a copy, so that the loop holds it in registers
-    ivec2 here = ivec2(gl_GlobalInvocationID.xy), visible = ivec2(view.visible), last = imageSize(shares) - 1, guard = ivec2(view.guard);
+    ivec2 here = ivec2(gl_GlobalInvocationID.xy), visible = ivec2(view.visible), last = constants.size - 1, guard = ivec2(view.guard);
 #ifdef TO_MAP
     if (any(greaterThan(here, last))) return;
     ivec2 p = pixelOfMap(here, constants.map, visible);

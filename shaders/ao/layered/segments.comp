@@ -51,7 +51,7 @@ void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
     FalloffBlock rho = constants.falloff;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(shares)))) return;
+    if (any(greaterThanEqual(p, constants.size))) return;
     ivec2 texel = pixelOfMap(p, constants.map, ivec2(view.visible)) + ivec2(view.guard);
     if (isSky(view, depthAt(texel))) {
         imageStore(shares, p, packShare(depthAt(texel), 0.0, 1.0));

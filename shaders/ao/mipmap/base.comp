@@ -9,7 +9,7 @@ layout(set = 0, binding = 2, rg32f) uniform writeonly image2D base;
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(base)))) return;
+    if (any(greaterThanEqual(p, ivec2(view.size)))) return;
     float z = imageLoad(depth, p).x;
     imageStore(base, p, isSky(view, z) ? vec4(0.0) : vec4(z, 1.0, 0.0, 0.0));
 }

@@ -9,6 +9,7 @@
 #include "shared/view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kThin = 0;
+layout(constant_id = 1) const bool kLarger = false;  // the pyramid's image is larger than view.size (dynamic resolution)
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 2) uniform sampler2D pyramid;
@@ -18,6 +19,12 @@ layout(push_constant) uniform Block { MipmapObscurance constants; };
 #include "ao/far_field/estimator.glsl"
 #include "ao/far_field/receiver.glsl"
 #include "ao/far_field/thin.glsl"
+
+// Bilinear sample of a level at a place in [0,1)^2 of the view: as the sampler's, where the image has texels beyond the view.
+vec2 sampleOf(View view, vec2 place, int level) {
+    vec2 size = vec2(max(view.size >> level, 1u)), texel = clamp(place * size, vec2(0.5), size - 0.5);
+    return textureLod(pyramid, texel / vec2(max(textureSize(pyramid, 0) >> level, 1)), float(level)).xy;  // lavapipe: sizes of one level
+}
 
 void main() {
     View view = viewBlock;  // copies, so that the loops hold them in registers
@@ -52,9 +59,13 @@ void main() {
                 vec2 sampled;  // depth times coverage, coverage
                 vec2 where = r.pixel + at * s.along;
                 if (kThin != 0u) {
-                    int mip = min(int(level + 0.5), textureQueryLevels(pyramid) - 1);
+                    int mip = min(int(level + 0.5), int(constants.levels) - 1);
                     vec2 size = vec2(max(view.size >> mip, 1u));  // not halves: 27 rows are made of 54, and 13 of 27
                     sampled = texelFetch(pyramid, ivec2(min(where * texelSize * size, size - 0.5)), mip).xy;
+                } else if (kLarger) {
+                    float finer = min(floor(level), float(constants.levels) - 1.0);
+                    int mip = int(finer), next = min(mip + 1, int(constants.levels) - 1);
+                    sampled = mix(sampleOf(view, where * texelSize, mip), sampleOf(view, where * texelSize, next), level - finer);
                 } else {
                     sampled = textureLod(pyramid, where * texelSize, level).xy;
                 }

@@ -3,13 +3,16 @@
 // covers parts of three texels on that axis, so that levels stay aligned.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "ao/mipmap/constants.h"
+#extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kNearest = false;
 layout(set = 0, binding = 0, rg32f) uniform readonly image2D finer;
 layout(set = 0, binding = 1, rg32f) uniform writeonly image2D coarser;
+layout(push_constant) uniform Block { MipmapReduce constants; };
 
 void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy), size = imageSize(coarser), last = imageSize(finer) - 1;
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy), size = constants.coarser, last = constants.finer - 1;
     if (any(greaterThanEqual(p, size))) return;
     vec2 ratio = vec2(last + 1) / vec2(size), from = vec2(p) * ratio, to = from + ratio;
     ivec2 first = ivec2(from + 1e-3);

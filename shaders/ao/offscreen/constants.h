@@ -5,6 +5,7 @@
 OBSCURA_SHARED_BEGIN
 
 struct OffscreenTrace {  // trace.comp
+    ivec2 size;            // of the map, px
     FalloffBlock falloff;
     uint rays;
     float stride;          // longest ray step, cells of its level
@@ -16,8 +17,9 @@ struct OffscreenTrace {  // trace.comp
     float thickness;       // of Blocking: metres behind the visible surface
     uint octave;           // log2 of the number of steps an octave
     uint steps;            // most steps of a ray
+    uint unused;
 };
-OBSCURA_SHARED_SIZE(OffscreenTrace, 52);
+OBSCURA_SHARED_SIZE(OffscreenTrace, 64);
 
 OBSCURA_SHARED_END
 #endif

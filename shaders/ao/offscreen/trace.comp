@@ -37,7 +37,7 @@ void main() {
     float reach2 = constants.reach * constants.reach;
     bool countsHidden = constants.hidden != 0u;
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, imageSize(map)))) return;
+    if (any(greaterThanEqual(p, constants.size))) return;
     vec3 here, n;
     if (!receive(view, p, int(constants.scale), here, n)) return;
 

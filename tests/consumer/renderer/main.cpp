@@ -1,5 +1,5 @@
-// renderer [FOLDER]: renders several methods at two sizes and checks each image: the floor is open, the crease below the wall is
-// dark. Writes the images to FOLDER as METHOD-WIDTHxHEIGHT.pgm.
+// renderer [FOLDER]: renders several methods at two sizes, then with a size that changes every frame, and checks each image: the floor is
+// open, the crease below the wall is dark. Writes the images to FOLDER as METHOD-WIDTHxHEIGHT.pgm.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -71,6 +71,23 @@ int main(int argc, char** argv) {
                         std::string(argv[1]) + "/" + method + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + ".pgm";
                     expect(write(name, renderer, picture), "the picture cannot be written", method);
                 }
+            }
+        }
+        // Dynamic resolution: between half and all of 320 x 180, each frame another size. No device memory is allocated.
+        obscurance.largest = {320, 180};
+        for (const char* method : {"gtao", "far_field"}) {
+            expect(obscurance.use(method), "setMethod", method);
+            uint64_t bytes = 0;
+            for (uint32_t frame = 0; frame < 24; ++frame) {
+                const uint32_t share = frame * 7 % 13;  // of 12
+                renderer.resize(160 + 160 * share / 12, 90 + 90 * share / 12);
+                const VkCommandBuffer cmd = renderer.begin();
+                const Obscurance::Picture picture = obscurance.record(cmd, renderer);
+                if (!picture.image) return std::printf("WRONG: %s: record\n", method), 1;
+                renderer.end(picture.image, picture.layout, 1);
+                if (frame == 4) bytes = obscurance.bytes();
+                expect(frame < 4 || obscurance.bytes() <= bytes, "memory grows with the size", method);
+                if (frame % 6 == 5) look(renderer, renderer.wait(), method);
             }
         }
         expect(!obscurance.use("no such method"), "an unknown method is taken", "setMethod");

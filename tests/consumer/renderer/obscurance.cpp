@@ -29,9 +29,12 @@ bool Obscurance::use(const char* method) {
     return ao::setMethod(m_context, method, settings) == ao::Result::ok;
 }
 
+uint64_t Obscurance::bytes() const { return ao::memoryUse(m_context); }
+
 Obscurance::Picture Obscurance::record(VkCommandBuffer cmd, const Renderer& renderer) {
     ao::Frame frame;
     frame.size = renderer.size;
+    frame.maxSize = largest;
     std::copy_n(renderer.camera.projection, 16, frame.projection);
     frame.depth = {renderer.depth, renderer.depthView, VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
     frame.index = renderer.frame;

@@ -20,6 +20,8 @@ public:
     };
     // Visibility of the renderer's depth, 8 bits a pixel; null on failure.
     Picture record(VkCommandBuffer cmd, const Renderer& renderer);
+    VkExtent2D largest{};    // dynamic resolution: the largest size of the renderer to come; 0: its sizes are fixed
+    uint64_t bytes() const;  // device memory
 
 private:
     obscura::ao::Context* m_context = nullptr;

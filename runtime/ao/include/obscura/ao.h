@@ -2,12 +2,12 @@
 //
 //   create() adopts your device. record() writes commands into your command buffer: depth and normals in, visibility out.
 //
-// Contract. Nothing is submitted and nothing is waited for. After the first frames at a size no device memory is allocated and no Vulkan
-// object is made; descriptor sets come from existing pools. Recording uses the heap. Call record() outside rendering. It overwrites the
-// pipeline, descriptor sets and push constants of the compute bind point, and no other command state. It places the barriers that its own
-// reads need: inputs are read in compute shaders after all earlier commands, and are left in the layouts that you name. No exception leaves
-// the API; a failure is a Result and one line in your log. One thread uses a Context at a time. Contexts are independent: there is no
-// global state. Strings, lists and descriptions are read during the call; handles stay yours.
+// Contract. Nothing is submitted and nothing is waited for. After the first frames at a size, or below one Frame::maxSize, no device memory
+// is allocated and no Vulkan object is made; descriptor sets come from existing pools. Recording uses the heap. Call record() outside
+// rendering. It overwrites the pipeline, descriptor sets and push constants of the compute bind point, and no other command state. It places
+// the barriers that its own reads need: inputs are read in compute shaders after all earlier commands, and are left in the layouts that you
+// name. No exception leaves the API; a failure is a Result and one line in your log. One thread uses a Context at a time. Contexts are
+// independent: there is no global state. Strings, lists and descriptions are read during the call; handles stay yours.
 //
 // Space. Eye space is right-handed: camera at the origin, looking down -z, y up. Lengths are metres, or your unit if the falloff uses it
 // too. Pixels count from the upper left. Matrices are stored by columns. Visibility is linear: 1 is open, 0 is blocked. A left-handed
@@ -179,7 +179,9 @@ struct DeviceDesc {
     VkDevice device = VK_NULL_HANDLE;  // with the features synchronization2, maintenance4 and shaderStorageImageExtendedFormats enabled
     uint32_t queueFamily = 0;          // of the command buffers given to record(); supports compute
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;  // the loader's; the library does not link it
-    uint32_t framesInFlight = 2;  // N >= 1: when record() is called, the GPU has finished the frame recorded N calls ago
+    uint32_t framesInFlight = 2;  // N >= 1: when record() is called, the GPU has finished the frame N frames ago
+    uint32_t views = 1;  // 1 to 16: the most calls of record() in a frame, one for each view: eyes, or players of a split screen. Each view
+                         // costs as much time as a frame of its own, and its history as much memory; the rest is shared
     VisibilityFormat format = VisibilityFormat::r16f;  // of Output::image
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;    // yours, for the library's pipelines; null: one of its own, in memory
     // Host memory of Vulkan objects; null: the driver's. Must outlive the context. The library's own containers use operator new.
@@ -281,6 +283,8 @@ struct DepthLayers {
 // What record() reads. Images may be larger than `size`: the part of them that begins at `origin` is read, and nothing outside it.
 struct Frame {
     VkExtent2D size{};          // px, of depth and normals, guard band included
+    VkExtent2D maxSize{};       // px; 0: none. For dynamic resolution: the largest `size` to come, for which memory is made. While it is
+                                // the same, frames of any size up to it allocate nothing and keep the history
     VkExtent2D guard{};         // px on each side that are read but not shown: visible = size - 2 guard. Multiples of 16 are fastest
     VkOffset2D origin{};        // px, where that part begins in every image, as a player's in a split screen. Not 0: the part is copied
                                 // first. layers.second of half size begins at half of it, so it must be even then
@@ -294,18 +298,21 @@ struct Frame {
     ImageView normals;
     NormalKind normalKind = NormalKind::eye;                      // the space of `normals`
     NormalEncoding normalEncoding = NormalEncoding::signedFloat;  // how a texel of `normals` holds a vector
-    ImageView motion;  // optional, for the parameter `temporal`: two floats, sampled usage; where each pixel's surface was last frame
+    // Optional, for the parameter `temporal`: two floats, sampled usage; where each pixel's surface was last frame. Without it history
+    // follows the camera, by eyeFromWorld and projection of both frames: surfaces that move by themselves begin anew.
+    ImageView motion;
     float motionScale[2] = {1, 1};  // motion * motionScale = px from this pixel to last frame's position, y down. Motion in UV:
                                     // {width, height}; in NDC with y up: {width / 2, -height / 2}; pointing from last frame to this:
-                                    // negated
+                                    // negated. If `size` has changed, px of this frame: last frame's picture is stretched to this one's
     // px, x right, y down: how far the jitter of temporal anti-aliasing in `projection` moves the image this frame, if `motion` leaves it
-    // out. 0: there is no jitter, or `motion` contains it.
+    // out. 0: there is no jitter, or `motion` contains it, or there is no `motion`.
     float jitter[2] = {0, 0};
     bool cut = false;       // camera cut: history is discarded this frame
     DepthLayers layers;     // optional
     Volume volume;          // optional
     float skyDepth = 0.0f;  // metres: depths from here on are sky; 0: the far plane of `projection`
-    uint64_t index = 0;     // frame number: with `temporal`, selects this frame's rotation of the samples. Add 1 each frame
+    uint64_t index = 0;     // frame number: with `temporal`, selects this frame's rotation of the samples. Add 1 each frame, not each view
+    uint32_t view = 0;      // which view this is, below DeviceDesc::views: each has its own history and `cut`
 };
 
 // What record() gives. The image is the context's. It keeps its contents until framesInFlight more frames have been recorded; you may
@@ -313,9 +320,10 @@ struct Frame {
 struct Output {
     Result status = Result::invalid;    // not ok: nothing was recorded, the handles are null, a log line says why
                                         // (outOfMemory: some commands may have been recorded; discard the command buffer)
-    VkImage image = VK_NULL_HANDLE;     // DeviceDesc::format, the visible size; usage sampled, transfer source and destination
+    VkImage image = VK_NULL_HANDLE;     // DeviceDesc::format, `size` or, with Frame::maxSize, larger; usage sampled, transfer both ways
     VkImageView view = VK_NULL_HANDLE;  // 2D, one mip
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL; reads in any shader stage need no barrier
+    VkExtent2D size{};  // px: the visible size. The result is that part of the image, from its upper left pixel on
 };
 // Records the method's passes; the contract stands at the head of this file.
 OBSCURA_API Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept;
@@ -325,13 +333,16 @@ OBSCURA_API uint64_t memoryUse(const Context* context) noexcept;  // bytes of de
 // only size and format are read: handles and layouts may be null. Allocates no device memory. 0, and a log line, where record() would
 // refuse.
 OBSCURA_API uint64_t memoryUse(Context* context, const Frame& frame) noexcept;
+// Gives back what frames like the last one do not need: memory of larger sizes, and pipelines of methods other than the one now set. It is
+// freed in the next calls of record(), once the GPU has finished the frames that use it, or in destroy().
+OBSCURA_API void trim(Context* context) noexcept;
 
-// The GPU time of one pass.
+// The GPU time of one pass of record().
 struct PassTime {
     const char* name;     // "hbao.horizons"
     double milliseconds;  // on the GPU
 };
-// Of the newest frame that the GPU has finished. Owned by the context, valid until the next record().
+// Of the newest record() that the GPU has finished. Owned by the context, valid until the next record().
 OBSCURA_API List<PassTime> timings(Context* context) noexcept;
 
 }  // namespace obscura::ao

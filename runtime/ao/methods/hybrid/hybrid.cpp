@@ -88,7 +88,7 @@ public:
         const graph::ImageId receivers = graph.image("hybrid.receivers", {VK_FORMAT_R32G32_UINT, width, height});
         const uint32_t equal = values.count("steps"), octave = values.count("octave");
         const uint32_t steps = equal ? equal : volumeRaySteps(inputs.volume.volume, inputs.falloff.reach, values["stride"], octave);
-        const shared::HybridTrace trace{inputs.falloff, sharedOut(values.count("rays"), side), steps, scale,
+        const shared::HybridTrace trace{shared::sizeOf(width, height), inputs.falloff, sharedOut(values.count("rays"), side), steps, scale,
             std::cos(values["spread"] * 1.5707963f), values["offset"], values["jitter"], kGrain, side, values["stride"], octave,
             equal ? 1u : 0u};
         graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)])

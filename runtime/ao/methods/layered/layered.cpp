@@ -95,8 +95,9 @@ public:
                         : m_layerPass.add(graph, inputs, values["sheet"], layers == 2 ? LayerPass::Layers::two : LayerPass::Layers::one);
         const uint32_t side = tileSide(values), slices = sharedOut(values.count("slices"), side) / (side * side);
         const uint32_t map = values.count("map"), width = (visible.x + map - 1) / map, height = (visible.y + map - 1) / map;
+        const shared::ivec2 mapSize = shared::sizeOf(width, height);
         const shared::LayeredSegments constants{
-            inputs.falloff, slices, values.count("steps"), values["max_pixels"], side, map, values["thickness"]};
+            mapSize, inputs.falloff, slices, values.count("steps"), values["max_pixels"], side, map, values["thickness"], 0};
         graph::ImageId shares = graph.image("layered.shares", {VK_FORMAT_R32G32_UINT, width, height});
         const graph::ImageId visibility = graph.image("layered.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph.pass("layered.segments", m_segments[layers])
@@ -106,7 +107,8 @@ public:
             .write(shares)
             .constants(constants)
             .dispatch(width, height);
-        const shared::LayeredGather tile{map, side / 2, side / 2 * 2 + 1, 0.5f * float(side) + 0.5f}, four{map, 0, 2, 1.0f};
+        const shared::LayeredGather tile{mapSize, map, side / 2, side / 2 * 2 + 1, 0.5f * float(side) + 0.5f},
+            four{mapSize, map, 0, 2, 1.0f};
         if (map > 1) {
             const graph::ImageId gathered = graph.image("layered.gathered", {VK_FORMAT_R32G32_UINT, width, height});
             graph.pass("layered.gather", m_gather[1])

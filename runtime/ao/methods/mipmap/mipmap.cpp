@@ -43,11 +43,14 @@ public:
         auto result = std::make_unique<Mipmap>();
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         if (gpu::Program::compute(device, shaders, "ao/mipmap/base.comp", {}, result->m_base) != gpu::Status::ok) return nullptr;
+        const auto make = [&](const char* name, std::vector<gpu::Constant> constants, gpu::Program& program) {
+            return gpu::Program::compute(device, shaders, name, constants, program) == gpu::Status::ok;
+        };
         for (uint32_t thin = 0; thin < 2; ++thin)
-            if (gpu::Program::compute(device, shaders, "ao/mipmap/reduce.comp", {{0, thin}}, result->m_reduce[thin]) != gpu::Status::ok ||
-                gpu::Program::compute(device, shaders, "ao/mipmap/obscurance.comp", {{0, thin}}, result->m_obscurance[thin]) !=
-                    gpu::Status::ok)
+            if (!make("ao/mipmap/reduce.comp", {{0, thin}}, result->m_reduce[thin]) ||
+                !make("ao/mipmap/obscurance.comp", {{0, thin}}, result->m_obscurance[thin]))
                 return nullptr;
+        if (!make("ao/mipmap/obscurance.comp", {{0, 0}, {1, 1}}, result->m_larger)) return nullptr;
         return result;
     }
 
@@ -58,19 +61,24 @@ public:
         const graph::ImageId pyramid = graph.image("mipmap.pyramid", {VK_FORMAT_R32G32_SFLOAT, view.size.x, view.size.y, 1, mips});
         graph.pass("mipmap.base", m_base).read(inputs.viewBlock).read(inputs.depth).writeMip(pyramid, 0).dispatch(view.size.x, view.size.y);
         const uint32_t nearest = values["thickness"] > 0.0f;
+        const auto sizeOf = [&](uint32_t mip) {
+            return shared::sizeOf(std::max(view.size.x >> mip, 1u), std::max(view.size.y >> mip, 1u));
+        };
         for (uint32_t mip = 1; mip < mips; ++mip)
             graph.pass("mipmap.reduce", m_reduce[nearest])
                 .readMip(pyramid, mip - 1)
                 .writeMip(pyramid, mip)
+                .constants(shared::MipmapReduce{sizeOf(mip - 1), sizeOf(mip)})
                 .dispatch(std::max(view.size.x >> mip, 1u), std::max(view.size.y >> mip, 1u));
 
         float at = 1.0f, step = 1.0f;
         while (at < values["nearest"]) at += step *= values["factor"];
         const shared::MipmapObscurance constants{
-            values.count("directions"), values["factor"], inputs.falloffDesc.length, values["thickness"], values["jitter"], at, step};
+            values.count("directions"), values["factor"], inputs.falloffDesc.length, values["thickness"], values["jitter"], at, step, mips};
         const graph::ImageId table = m_table.add(graph, inputs, "mipmap.table");
         const graph::ImageId visibility = graph.image("mipmap.visibility", {VK_FORMAT_R16_SFLOAT, view.visible.x, view.visible.y});
-        graph.pass("mipmap.obscurance", m_obscurance[nearest])
+        const bool larger = !nearest && !(graph.made(pyramid) == graph.desc(pyramid));
+        graph.pass("mipmap.obscurance", larger ? m_larger : m_obscurance[nearest])
             .read(inputs.viewBlock)
             .read(inputs.normals)
             .read(pyramid, graph::Sampling::linear)
@@ -88,6 +96,7 @@ public:
 private:
     FalloffTable m_table;
     gpu::Program m_base, m_reduce[2], m_obscurance[2];  // endless, thin
+    gpu::Program m_larger;                              // m_obscurance[0] where the pyramid's image is larger than the view
 };
 
 }  // namespace

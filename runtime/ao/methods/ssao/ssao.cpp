@@ -14,6 +14,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "ao/common/constants.h"
 #include "ao/denoise.h"
 #include "ao/mean_reach.h"
 #include "ao/ssao/constants.h"
@@ -102,7 +103,11 @@ public:
         if (values.count("denoise") == kSurface) return m_denoise.add(graph, inputs, visibility, "ssao.blur");
         if (values.count("denoise") == kNone) return visibility;
         const graph::ImageId blurred = graph.image("ssao.blur", graph.desc(visibility));
-        graph.pass("ssao.blur", m_box).read(visibility).write(blurred).dispatch(visible.x, visible.y);
+        graph.pass("ssao.blur", m_box)
+            .read(visibility)
+            .write(blurred)
+            .constants(shared::Whole{shared::sizeOf(visible.x, visible.y)})
+            .dispatch(visible.x, visible.y);
         return blurred;
     }
 
