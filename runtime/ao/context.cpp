@@ -35,7 +35,7 @@ graph::ImageId importView(graph::Graph& graph, const char* name, const ImageView
     return graph.import(name, external);
 }
 
-graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame, bool forecast) {
+Library::Added declare(Context& context, graph::Graph& graph, const Frame& frame, bool forecast) {
     const GivenImages given = imagesOf(frame, forecast);
     Sources sources;
     bool made = true;
@@ -57,7 +57,7 @@ graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame
     if (const Volume& v = frame.volume; v.buffer)
         sources.volume = graph.import("volume bits",
             {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.levels) * v.cells * v.cells * v.cells / 8 : v.bytes});
-    return context.library->add(graph, frame, sources, context.falloff, *context.values).visibility;
+    return context.library->add(graph, frame, sources, context.falloff, *context.values);
 }
 
 gpu::ImageDesc outputDesc(const Context& context, VkExtent2D size) {
@@ -66,33 +66,45 @@ gpu::ImageDesc outputDesc(const Context& context, VkExtent2D size) {
     return {r8 ? VK_FORMAT_R8_UNORM : VK_FORMAT_R16_SFLOAT, size.width, size.height, 1, 1, r8 ? usage | VK_IMAGE_USAGE_STORAGE_BIT : usage};
 }
 
-gpu::Status nextOutput(Context& context, VkExtent2D size, const gpu::Image*& out) {
-    gpu::Image& image = context.outputs[context.device->frame() % context.outputs.size()];
-    const gpu::ImageDesc desc = outputDesc(context, size);
-    out = &image;
-    return image && image.desc() == desc ? gpu::Status::ok : gpu::Image::create(*context.device, desc, "obscura output", image);
+gpu::ImageDesc bentDesc(VkExtent2D size) {
+    const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    return {VK_FORMAT_R8G8B8A8_SNORM, size.width, size.height, 1, 1, usage};
 }
 
-// The one place where every method's visibility becomes what the host reads. `target` may be null in a frame that is not executed.
-void deliver(Context& context, graph::Graph& graph, graph::ImageId visibility, const gpu::ImageDesc& desc, const gpu::Image* target) {
+gpu::Status nextOf(Context& context, std::vector<gpu::Image>& ring, const gpu::ImageDesc& desc, const char* name, const gpu::Image*& out) {
+    gpu::Image& image = ring[context.device->frame() % ring.size()];
+    out = &image;
+    return image && image.desc() == desc ? gpu::Status::ok : gpu::Image::create(*context.device, desc, name, image);
+}
+
+// The one place where every method's results become what the host reads. `target` may be null in a frame that is not executed.
+void deliver(graph::Graph& graph, graph::ImageId drawn, const gpu::ImageDesc& desc, const gpu::Image* target, const char* name,
+    gpu::Program* convert) {
     graph::External external;
     if (target) external.image = target->handle(), external.view = target->view();
     external.desc = desc;
     external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const graph::ImageId result = graph.import("output", external);
+    const graph::ImageId result = graph.import(name, external);
     const VkExtent3D size{desc.width, desc.height, 1};
-    if (context.format == VisibilityFormat::r8) {
-        graph.pass("output", context.toR8).read(visibility).write(result).dispatch(size.width, size.height);
+    if (convert) {
+        graph.pass(name, *convert).read(drawn).write(result).dispatch(size.width, size.height);
         return;
     }
-    graph.pass("output")
-        .use(visibility, graph::Access::transferRead)
+    graph.pass(name)
+        .use(drawn, graph::Access::transferRead)
         .use(result, graph::Access::transferWrite, true)
-        .record([visibility, result, size](const graph::PassContext& c) {
+        .record([drawn, result, size](const graph::PassContext& c) {
             const VkImageCopy region{{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, size};
-            c.device.vk().CmdCopyImage(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(result),
+            c.device.vk().CmdCopyImage(c.cmd, c.image(drawn), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(result),
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
         });
+}
+
+void deliverAll(
+    Context& context, graph::Graph& graph, const Library::Added& added, VkExtent2D size, const gpu::Image* target, const gpu::Image* bent) {
+    deliver(graph, added.visibility, outputDesc(context, size), target, "output",
+        context.format == VisibilityFormat::r8 ? &context.toR8 : nullptr);
+    if (added.bentNormals) deliver(graph, added.bentNormals, bentDesc(size), bent, "output.bent", nullptr);
 }
 
 }  // namespace
@@ -108,17 +120,22 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcep
         if (context->executor->lastFrame() == context->device->frame()) context->device->nextFrame();
         graph::Graph& graph = *context->graph;
         graph.begin();
-        const gpu::Image* target = nullptr;
-        if (const gpu::Status made = nextOutput(*context, {view.visible.x, view.visible.y}, target); made != gpu::Status::ok)
-            return statusOf(made);
-        const graph::ImageId visibility = declare(*context, graph, frame, false);
-        if (!visibility) return statusOf(context->device->failure());
-        deliver(*context, graph, visibility, target->desc(), target);
+        const VkExtent2D size{view.visible.x, view.visible.y};
+        const gpu::Image *target = nullptr, *bent = nullptr;
+        gpu::Status made = nextOf(*context, context->outputs, outputDesc(*context, size), "obscura output", target);
+        if (made == gpu::Status::ok && context->values->bentNormals)
+            made = nextOf(*context, context->bent, bentDesc(size), "obscura bent normals", bent);
+        else context->bent[context->device->frame() % context->bent.size()] = {};
+        if (made != gpu::Status::ok) return statusOf(made);
+        const Library::Added added = declare(*context, graph, frame, false);
+        if (!added.visibility) return statusOf(context->device->failure());
+        deliverAll(*context, graph, added, size, target, bent);
         const Status status = statusOf(context->executor->execute(graph, cmd));
         if (status != Status::ok) return status;
         output.image = target->handle();
         output.view = target->view();
         output.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        if (bent) output.bentNormals = bent->handle(), output.bentNormalsView = bent->view();
         return Status::ok;
     });
     return output;
@@ -133,12 +150,14 @@ uint64_t memoryUse(Context* context, const Frame& frame) noexcept {
         shared::View view;
         if (const Status status = checkFrame(*context, frame, true, view); status != Status::ok) return status;
         graph::Graph asked(*context->device);  // declared, not executed
-        const graph::ImageId visibility = declare(*context, asked, frame, true);
-        if (!visibility) return Status::shaderError;
-        const gpu::ImageDesc output = outputDesc(*context, {view.visible.x, view.visible.y});
-        deliver(*context, asked, visibility, output, nullptr);
+        const VkExtent2D size{view.visible.x, view.visible.y};
+        const Library::Added added = declare(*context, asked, frame, true);
+        if (!added.visibility) return Status::shaderError;
+        deliverAll(*context, asked, added, size, nullptr, nullptr);
+        uint64_t outputs = gpu::Image::bytesOf(*context->device, outputDesc(*context, size));
+        if (added.bentNormals) outputs += gpu::Image::bytesOf(*context->device, bentDesc(size));
         const uint64_t passes = context->executor->bytes(asked);
-        if (passes) bytes = context->methodBytes + passes + context->outputs.size() * gpu::Image::bytesOf(*context->device, output);
+        if (passes) bytes = context->methodBytes + passes + context->outputs.size() * outputs;
         return Status::ok;
     });
     return bytes;

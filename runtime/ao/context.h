@@ -35,6 +35,7 @@ struct Context {
     Crop crop;                        // for Frame::origin
     gpu::Program toR8;                // R16F to R8, for VisibilityFormat::r8
     std::vector<gpu::Image> outputs;  // a ring: the host may still read the last frames'
+    std::vector<gpu::Image> bent;     // bent normals, as `outputs`
     uint64_t methodBytes = 0;         // device memory that methods allocated when they were made
     std::optional<Values> values;     // of the method set
     Falloff falloff;

@@ -52,6 +52,7 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     made->device = gpu::Device::adopt(adopted, error, &why);
     if (!made->device) return log(("obscura: " + error).c_str()), statusOf(why);
     made->outputs.resize(made->device->framesInFlight() + 1);
+    made->bent.resize(made->outputs.size());
     made->shaders.add(shaders());
     made->graph = std::make_unique<graph::Graph>(*made->device);
     made->executor = std::make_unique<graph::Executor>(*made->device);
@@ -78,6 +79,7 @@ Status create(const DeviceDesc& desc, Context** context) noexcept {
 void destroy(Context* context) noexcept {
     if (!context) return;
     context->outputs.clear();
+    context->bent.clear();
     context->toR8 = {};
     context->library.reset();
     context->graph.reset();

@@ -22,6 +22,13 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 
 }  // namespace
 
+std::string bentNormalsFrom() {
+    std::string ids;
+    for (const MethodInfo* info : methods())
+        if (info->bentNormals) ids += (ids.empty() ? "" : ", ") + std::string(info->id);
+    return ids;
+}
+
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders) {
     m_valid = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok;
 }
@@ -33,13 +40,24 @@ bool Library::prepare(const MethodInfo& info, FalloffKind falloff) { return meth
 Method* Library::methodOf(const Values& values, FalloffKind falloff) {
     if (!m_valid || values.index() == Values::kUnregistered) return nullptr;
     const MethodEntry& entry = registry()[values.index()];
-    std::unique_ptr<Method>& method = m_methods[{values.index(), entry.perFalloff ? falloff : FalloffKind{}}];
-    if (!method) method = entry.create(m_device, m_shaders, falloff);
+    const auto create = values.bentNormals ? entry.createBent : entry.create;
+    if (!create) {
+        m_device.log(
+            gpu::Severity::error, std::string("obscurance: ") + entry.info->id + " has no bent normals; " + bentNormalsFrom() + " do");
+        return nullptr;
+    }
+    std::unique_ptr<Method>& method = m_methods[{values.index(), entry.perFalloff ? falloff : FalloffKind{}, values.bentNormals}];
+    if (!method) method = create(m_device, m_shaders, falloff);
     return method.get();
 }
 
 bool Library::prepare(const Values& values, FalloffKind falloff) {
     if (!methodOf(values, falloff)) return false;
+    if (values.bentNormals && !m_bentNormals) {
+        auto made = std::make_unique<BentNormals>();
+        if (BentNormals::create(m_device, m_shaders, *made) != Status::ok) return false;
+        m_bentNormals = std::move(made);
+    }
     if (!values.has("offscreen") || OffScreen(values.count("offscreen")) == OffScreen::off || m_offScreen.contains(falloff)) return true;
     auto made = std::make_unique<OffScreenPass>();
     if (OffScreenPass::create(m_device, m_shaders, falloff, *made) != Status::ok) return false;
@@ -76,17 +94,19 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     });
     Method& method = *methodOf(values, falloff.kind);
     const MethodEntry& entry = registry()[values.index()];
-    graph::ImageId visibility = method.add(graph, inputs, values);
+    const MethodOutput drawn = method.add(graph, inputs, values);
+    graph::ImageId visibility = drawn.visibility;
     const bool tracesItself = entry.needs && (entry.needs(values) & kVolume);
     if (visibility && values.has("offscreen") && OffScreen(values.count("offscreen")) != OffScreen::off && !tracesItself)
         visibility = m_offScreen.at(falloff.kind)
                          ->add(graph, inputs, visibility, method.blocking(inputs, values),
                              {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
-    if (!visibility || !values.info().needs) return {visibility, inputs};
+    if (!visibility || !values.info().needs) return {visibility, inputs, {}};
     TemporalSettings temporal;
     temporal.history = values["temporal"];
     temporal.clip = values["temporal_clip"];
-    return {m_temporal.add(graph, inputs, visibility, temporal, discard, "temporal"), inputs};
+    visibility = m_temporal.add(graph, inputs, visibility, temporal, discard, "temporal");
+    return {visibility, inputs, values.bentNormals ? m_bentNormals->add(graph, inputs, visibility, drawn.bentNormals) : graph::ImageId{}};
 }
 
 }  // namespace obscura::ao

@@ -4,8 +4,10 @@
 
 #include <map>
 #include <memory>
-#include <utility>
+#include <string>
+#include <tuple>
 
+#include "ao/bent_normals.h"
 #include "ao/method.h"
 #include "ao/offscreen.h"
 #include "ao/prepare.h"
@@ -13,21 +15,24 @@
 
 namespace obscura::ao {
 
+std::string bentNormalsFrom();  // the methods that give bent normals: "gtao, layered"
+
 class Library {
 public:
     Library(gpu::Device& device, const gpu::ShaderLibrary& shaders);
     ~Library();
 
     bool valid() const { return m_valid; }  // false: a pipeline that all methods need could not be made; logged
-    // Makes a method's pipelines for a kind of falloff; of values, also the off-screen pass's when these ask for it. False if any failed;
-    // logged.
+    // Makes a method's pipelines for a kind of falloff; of values, also the off-screen pass's and those of bent normals when these ask for
+    // them. False if any failed, or if the method has no bent normals; logged.
     bool prepare(const MethodInfo& info, FalloffKind falloff);
     bool prepare(const Values& values, FalloffKind falloff);
 
     // Adds the passes of prepare and of the values' method. No visibility, logged: the frame is invalid, or a pipeline cannot be made.
     struct Added {
-        graph::ImageId visibility;  // R16F, visible size
-        Inputs inputs;              // what prepare made, linear depth among it
+        graph::ImageId visibility;   // R16F, visible size
+        Inputs inputs;               // what prepare made, linear depth among it
+        graph::ImageId bentNormals;  // R8G8B8A8_SNORM, visible size, as Output::bentNormals; with Values::bentNormals
     };
     Added add(graph::Graph& graph, const Frame& frame, const Sources& sources, const Falloff& falloff, const Values& values);
     void discardHistory() { m_last = nullptr; }  // the next frame begins without: as Frame::cut
@@ -39,10 +44,12 @@ private:
     Prepare m_prepare;
     std::map<FalloffKind, std::unique_ptr<OffScreenPass>> m_offScreen;  // those that values have asked for
     Temporal m_temporal;
-    std::map<std::pair<size_t, FalloffKind>, std::unique_ptr<Method>> m_methods;  // by registry order; null: could not be made
-    const MethodInfo* m_last = nullptr;                                           // the last recorded frame's; null: there is no history
-    float m_eyeFromWorld[16] = {};                                                // the last recorded frame's
-    float m_jitter[2] = {};                                                       // the last recorded frame's
+    std::unique_ptr<BentNormals> m_bentNormals;  // once values have asked for it
+    // By registry order, falloff and whether they give bent normals; null: could not be made.
+    std::map<std::tuple<size_t, FalloffKind, bool>, std::unique_ptr<Method>> m_methods;
+    const MethodInfo* m_last = nullptr;  // the last recorded frame's; null: there is no history
+    float m_eyeFromWorld[16] = {};       // the last recorded frame's
+    float m_jitter[2] = {};              // the last recorded frame's
     bool m_valid = false;
 };
 

@@ -4,6 +4,12 @@
 #include "shared/falloff.h"
 OBSCURA_SHARED_BEGIN
 
+struct BentNormals {  // bent_normals.comp
+    uint scale;    // picture pixels per pixel of the raw bent normals, each way
+    float covers;  // half the window's width, pixels of the raw bent normals
+};
+OBSCURA_SHARED_SIZE(BentNormals, 8);
+
 struct Crop {  // crop.comp
     ivec2 origin;  // px
 };
