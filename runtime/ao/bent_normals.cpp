@@ -13,7 +13,9 @@ graph::ImageId BentNormals::add(graph::Graph& graph, const Inputs& inputs, graph
     const shared::uvec2 size = inputs.view.visible;
     const graph::ImageId result = graph.image("bent normals", {VK_FORMAT_R8G8B8A8_SNORM, size.x, size.y});
     // A map is interpolated over at least two of its pixels.
-    const float least = raw.scale > 1 ? 1.0f : 0.5f, covers = 0.5f * float(raw.side) + 0.5f;
+    const float covers = raw.side > 1 ? 0.5f * float(raw.side) + 0.5f : raw.scale > 1 ? 1.0f : 0.5f;
+    // Pixels with a weight above 0: one more than the tile where its edges have half weight, or where pixels are between those of a map.
+    const uint32_t taps = raw.side % 2 == 0 || raw.scale > 1 ? raw.side + 1 : raw.side;
     graph.pass("bent normals", m_program)
         .read(inputs.viewBlock)
         .read(inputs.depth)
@@ -21,7 +23,7 @@ graph::ImageId BentNormals::add(graph::Graph& graph, const Inputs& inputs, graph
         .read(raw.image)
         .read(visibility)
         .write(result)
-        .constants(shared::BentNormals{raw.scale, raw.side > 1 ? covers : least})
+        .constants(shared::BentNormals{raw.scale, covers, taps})
         .dispatch(size.x, size.y);
     return result;
 }

@@ -32,8 +32,8 @@ void main() {
     int scale = int(constants.scale), middle = scale / 2;
     vec2 place = (vec2(p) - float(middle)) / float(scale);
     float sharpness = kPlane / depthForTolerance(view, z);
-    ivec2 first = ivec2(ceil(place - constants.covers));
-    int taps = int(2.0 * constants.covers) + 1;
+    ivec2 first = ivec2(floor(place - constants.covers)) + 1;
+    int taps = int(constants.taps);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int y = 0; y < taps; ++y) {

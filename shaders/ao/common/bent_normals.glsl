@@ -17,14 +17,14 @@ vec3 unpackBent(uint bits) {
 }
 uvec4 rawBent(float depth, vec3 blocked) { return uvec4(floatBitsToUint(depth), packBent(blocked), 0, 0); }
 
-// Twice the integral of w (n.w) sin a from the view ray to the angle of cosine c on a side of a slice, as its parts along v and o; nv and no
-// are the normal's. GTAO's bent-normal term [Jimenez 2016, alg. 2], as a function of c, so that it needs no arc cosine.
+// Twice the integral of w (n.w) sin a from the view ray to the angle of cosine c on a side of a slice, as its parts along v and o; nv and
+// no are the normal's. GTAO's bent-normal term [Jimenez 2016, alg. 2], as a function of c, so that it needs no arc cosine.
 vec2 bentArc(float nv, float no, float c) {
     float s = sqrt(max(1.0 - c * c, 0.0)), s3 = s * s * s, c3 = c * c * c;
     return (2.0 / 3.0) * vec2(nv * (1.0 - c3) + no * s3, nv * s3 + no * (2.0 + c3 - 3.0 * c));
 }
-// Mean direction between the angles of cosines `front` and `back` <= front, weighted by (n.w) sin a: its direction is exact, its length that
-// of directions that are evenly spaced over the interval, to 0.04.
+// Mean direction between the angles of cosines `front` and `back` <= front, weighted by (n.w) sin a: its direction is exact, its length
+// that of directions that are evenly spaced over the interval, to 0.04.
 vec2 meanBent(float nv, float no, float front, float back) {
     vec2 f = vec2(front, sqrt(max(1.0 - front * front, 0.0))), b = vec2(back, sqrt(max(1.0 - back * back, 0.0)));
     vec2 d = bentArc(nv, no, back) - bentArc(nv, no, front);

@@ -7,8 +7,9 @@ OBSCURA_SHARED_BEGIN
 struct BentNormals {  // bent_normals.comp
     uint scale;    // picture pixels per pixel of the raw bent normals, each way
     float covers;  // half the window's width, pixels of the raw bent normals
+    uint taps;     // pixels read each way
 };
-OBSCURA_SHARED_SIZE(BentNormals, 8);
+OBSCURA_SHARED_SIZE(BentNormals, 12);
 
 struct Crop {  // crop.comp
     ivec2 origin;  // px

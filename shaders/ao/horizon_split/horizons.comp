@@ -1,6 +1,6 @@
 // Horizon tracing and the occlusion below the horizon [Dimitrov, sec. 3.1, 3.2, 3.5]: a line starts in the tangent plane and is raised by
-// surfaces in front of it. In: linear depth, packed normals, guard band included. Out: 1 - O_T, R16F; H^2 per direction for normal rays; with BENT
-// also raw bent normals of what is blocked below the horizon.
+// surfaces in front of it. In: linear depth, packed normals, guard band included. Out: 1 - O_T, R16F; H^2 per direction for normal rays;
+// with BENT also raw bent normals of what is blocked below the horizon.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant BENT

@@ -1,6 +1,6 @@
 // Hybrid obscurance, first pass [Reinbothe 2009, eq. 4]: a cone of rays through the volume, one invocation per map pixel.
-// In: volume, linear depth, packed normals. Out: visibility, depth and normal of the map's receivers; with BENT also raw bent normals. Formulas:
-// runtime/ao/methods/hybrid/hybrid.cpp.
+// In: volume, linear depth, packed normals. Out: visibility, depth and normal of the map's receivers; with BENT also raw bent normals.
+// Formulas: runtime/ao/methods/hybrid/hybrid.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant VOLUME_NANOVDB

@@ -125,7 +125,8 @@ void cover(inout Side side, Receiver r, FalloffBlock rho, Plate plate, Aside asi
     side.covered |= bits;
     side.blocked += falloff(rho, distance) * float(bitCount(bits));
 #ifdef BENT
-    side.bent += falloff(rho, distance) * float(bitCount(bits)) * meanBent(side.normal.x, side.normal.y, fromCosine, min(toCosine, fromCosine));
+    vec2 mean = meanBent(side.normal.x, side.normal.y, fromCosine, min(toCosine, fromCosine));
+    side.bent += falloff(rho, distance) * float(bitCount(bits)) * mean;
 #endif
 }
 

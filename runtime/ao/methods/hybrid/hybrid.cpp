@@ -6,8 +6,8 @@
 // for equal normals; steps shifted per ray; a filter range of a quarter of the reach; distances measured from the surface point although
 // rays start above it (as to a surface that faces the ray).
 //
-// Bent normals are the mean of the rays, by what is not blocked of each; where rays are taken in a narrower cone than the hemisphere, of the
-// cone.
+// Bent normals are the mean of the rays, by what is not blocked of each; where rays are taken in a cone narrower than the hemisphere, of
+// the cone.
 //
 // Rays are uniform in the cosine over the cone, at multiples of the golden angle around the normal, with noise fixed in the world.
 // Reads the volume, linear depth and normals; writes visibility of the visible part. Rays can be interleaved over the map's pixels.
