@@ -38,7 +38,7 @@ graph::ImageId importView(graph::Graph& graph, const char* name, const ImageView
     return graph.import(name, external);
 }
 
-graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame, bool forecast) {
+Library::Added declare(Context& context, graph::Graph& graph, const Frame& frame, bool forecast) {
     const GivenImages given = imagesOf(frame, forecast);
     Sources sources;
     bool made = true;
@@ -62,7 +62,7 @@ graph::ImageId declare(Context& context, graph::Graph& graph, const Frame& frame
     if (const Volume& v = frame.volume; v.buffer)
         sources.volume = graph.import("volume bits",
             {v.buffer, v.offset, v.structure == VolumeStructure::dense ? uint64_t(v.levels) * v.cells * v.cells * v.cells / 8 : v.bytes});
-    return context.library->add(graph, frame, sources, context.falloff, *context.values).visibility;
+    return context.library->add(graph, frame, sources, context.falloff, *context.values);
 }
 
 bool isDynamic(const Frame& frame) { return frame.maxSize.width > 0; }
@@ -70,19 +70,19 @@ bool isDynamic(const Frame& frame) { return frame.maxSize.width > 0; }
 VkExtent2D largestOf(VkExtent2D a, VkExtent2D b) { return {std::max(a.width, b.width), std::max(a.height, b.height)}; }
 
 // Declares a frame. Within a Frame::maxSize its images are as large as those of the largest frame, which `capacity` keeps.
-graph::ImageId declareWithin(Context& context, graph::Graph& graph, graph::Capacity& capacity, const Frame& frame, bool forecast) {
+Library::Added declareWithin(Context& context, graph::Graph& graph, graph::Capacity& capacity, const Frame& frame, bool forecast) {
     const auto declared = [&] {
         graph.begin(nullptr, isDynamic(frame) ? &capacity : nullptr);
         return declare(context, graph, frame, forecast);
     };
-    const graph::ImageId visibility = declared();
-    if (!visibility || graph.fits()) return visibility;
+    Library::Added added = declared();
+    if (!added.visibility || graph.fits()) return added;
     Frame largest = frame;
     largest.size = frame.maxSize;
     const bool half = frame.layers.secondSize.width < frame.size.width || frame.layers.secondSize.height < frame.size.height;
     largest.layers.secondSize = half ? VkExtent2D{(largest.size.width + 1) / 2, (largest.size.height + 1) / 2} : largest.size;
     graph::Graph most(*context.device);  // not executed
-    if (!declare(context, most, largest, forecast)) return {};
+    if (!declare(context, most, largest, forecast).visibility) return {};
     capacity.grow(most);
     capacity.grow(graph);
     return declared();
@@ -101,38 +101,49 @@ gpu::ImageDesc outputDesc(const Context& context, VkExtent2D size) {
     return {r8 ? VK_FORMAT_R8_UNORM : VK_FORMAT_R16_SFLOAT, size.width, size.height, 1, 1, r8 ? usage | VK_IMAGE_USAGE_STORAGE_BIT : usage};
 }
 
-gpu::Status nextOutput(Context& context, VkExtent2D size, const gpu::Image*& out) {
-    gpu::Image& image = context.outputs[context.device->frame() % context.outputs.size()];
-    const gpu::ImageDesc desc = outputDesc(context, size);
-    out = &image;
-    return image && image.desc() == desc ? gpu::Status::ok : gpu::Image::create(*context.device, desc, "obscura output", image);
+gpu::ImageDesc bentDesc(VkExtent2D size) {
+    const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    return {VK_FORMAT_R8G8B8A8_SNORM, size.width, size.height, 1, 1, usage};
 }
 
-// The one place where every method's visibility becomes what the host reads. `target` may be null in a frame that is not executed.
-void deliver(Context& context, graph::Graph& graph, graph::ImageId visibility, VkExtent2D visible, const gpu::ImageDesc& desc,
-    const gpu::Image* target) {
+gpu::Status nextOf(Context& context, std::vector<gpu::Image>& ring, const gpu::ImageDesc& desc, const char* name, const gpu::Image*& out) {
+    gpu::Image& image = ring[context.device->frame() % ring.size()];
+    out = &image;
+    return image && image.desc() == desc ? gpu::Status::ok : gpu::Image::create(*context.device, desc, name, image);
+}
+
+// The one place where every method's results become what the host reads. `target` may be null in a frame that is not executed.
+void deliver(graph::Graph& graph, graph::ImageId drawn, VkExtent2D visible, const gpu::ImageDesc& desc, const gpu::Image* target,
+    const char* name, gpu::Program* convert) {
     graph::External external;
     if (target) external.image = target->handle(), external.view = target->view();
     external.desc = desc;
     external.layoutAfter = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const graph::ImageId result = graph.import("output", external);
+    const graph::ImageId result = graph.import(name, external);
     const VkExtent3D size{visible.width, visible.height, 1};
-    if (context.format == VisibilityFormat::r8) {
-        graph.pass("output", context.toR8)
-            .read(visibility)
+    if (convert) {
+        graph.pass(name, *convert)
+            .read(drawn)
             .write(result)
             .constants(shared::Whole{shared::sizeOf(size.width, size.height)})
             .dispatch(size.width, size.height);
         return;
     }
-    graph.pass("output")
-        .use(visibility, graph::Access::transferRead)
+    graph.pass(name)
+        .use(drawn, graph::Access::transferRead)
         .use(result, graph::Access::transferWrite, true)
-        .record([visibility, result, size](const graph::PassContext& c) {
+        .record([drawn, result, size](const graph::PassContext& c) {
             const VkImageCopy region{{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, size};
-            c.device.vk().CmdCopyImage(c.cmd, c.image(visibility), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(result),
+            c.device.vk().CmdCopyImage(c.cmd, c.image(drawn), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, c.image(result),
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
         });
+}
+
+void deliverAll(Context& context, graph::Graph& graph, const Library::Added& added, VkExtent2D visible, VkExtent2D size,
+    const gpu::Image* target, const gpu::Image* bent) {
+    deliver(graph, added.visibility, visible, outputDesc(context, size), target, "output",
+        context.format == VisibilityFormat::r8 ? &context.toR8 : nullptr);
+    if (added.bentNormals) deliver(graph, added.bentNormals, visible, bentDesc(size), bent, "output.bent", nullptr);
 }
 
 }  // namespace
@@ -154,17 +165,22 @@ Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcep
         }
         context->outputSize = isDynamic(frame) ? largestOf(context->outputSize, mostVisible(frame, visible)) : visible;
         graph::Graph& graph = *context->graph;
-        const gpu::Image* target = nullptr;
-        if (const gpu::Status made = nextOutput(*context, context->outputSize, target); made != gpu::Status::ok) return statusOf(made);
-        const graph::ImageId visibility = declareWithin(*context, graph, context->capacity, frame, false);
-        if (!visibility) return statusOf(context->device->failure());
-        deliver(*context, graph, visibility, visible, target->desc(), target);
+        const gpu::Image *target = nullptr, *bent = nullptr;
+        gpu::Status made = nextOf(*context, context->outputs, outputDesc(*context, context->outputSize), "obscura output", target);
+        if (made == gpu::Status::ok && context->values->bentNormals)
+            made = nextOf(*context, context->bent, bentDesc(context->outputSize), "obscura bent normals", bent);
+        else context->bent[context->device->frame() % context->bent.size()] = {};
+        if (made != gpu::Status::ok) return statusOf(made);
+        const Library::Added added = declareWithin(*context, graph, context->capacity, frame, false);
+        if (!added.visibility) return statusOf(context->device->failure());
+        deliverAll(*context, graph, added, visible, context->outputSize, target, bent);
         const Status status = statusOf(context->executor->execute(graph, cmd));
         if (status != Status::ok) return status;
         output.image = target->handle();
         output.view = target->view();
         output.size = visible;
         output.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        if (bent) output.bentNormals = bent->handle(), output.bentNormalsView = bent->view();
         return Status::ok;
     });
     return output;
@@ -180,14 +196,14 @@ uint64_t memoryUse(Context* context, const Frame& frame) noexcept {
         if (const Status status = checkFrame(*context, frame, true, view); status != Status::ok) return status;
         graph::Graph asked(*context->device);  // declared, not executed
         graph::Capacity capacity;
-        const graph::ImageId visibility = declareWithin(*context, asked, capacity, frame, true);
-        if (!visibility) return Status::shaderError;
-        const VkExtent2D visible{view.visible.x, view.visible.y};
-        const gpu::ImageDesc output = outputDesc(*context, mostVisible(frame, visible));
-        deliver(*context, asked, visibility, visible, output, nullptr);
+        const Library::Added added = declareWithin(*context, asked, capacity, frame, true);
+        if (!added.visibility) return Status::shaderError;
+        const VkExtent2D visible{view.visible.x, view.visible.y}, most = mostVisible(frame, visible);
+        deliverAll(*context, asked, added, visible, most, nullptr, nullptr);
+        uint64_t outputs = gpu::Image::bytesOf(*context->device, outputDesc(*context, most));
+        if (added.bentNormals) outputs += gpu::Image::bytesOf(*context->device, bentDesc(most));
         const uint64_t passes = context->executor->bytes(asked);
-        if (passes)
-            bytes = context->library->methodBytes() + passes + context->outputs.size() * gpu::Image::bytesOf(*context->device, output);
+        if (passes) bytes = context->library->methodBytes() + passes + context->outputs.size() * outputs;
         return Status::ok;
     });
     return bytes;

@@ -35,6 +35,7 @@ struct Context {
     Crop crop;                        // for Frame::origin
     gpu::Program toR8;                // R16F to R8, for VisibilityFormat::r8
     std::vector<gpu::Image> outputs;  // a ring: the host may still read the last frames'
+    std::vector<gpu::Image> bent;     // bent normals, as `outputs`
     uint32_t views = 1;
     VkExtent2D maxSize{};          // Frame::maxSize of the last frame, and of frames within it:
     graph::Capacity capacity;      // what the graph's images take

@@ -63,6 +63,7 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     if (!made->device) return log(("obscura: " + error).c_str()), statusOf(why);
     made->outputs.resize(made->device->framesInFlight() + desc.views);
     made->views = desc.views;
+    made->bent.resize(made->outputs.size());
     made->shaders.add(shaders());
     made->graph = std::make_unique<graph::Graph>(*made->device);
     made->executor = std::make_unique<graph::Executor>(*made->device);
@@ -89,6 +90,7 @@ Status create(const DeviceDesc& desc, Context** context) noexcept {
 void destroy(Context* context) noexcept {
     if (!context) return;
     context->outputs.clear();
+    context->bent.clear();
     context->toR8 = {};
     context->library.reset();
     context->graph.reset();

@@ -57,6 +57,9 @@ Status choose(Context& context, const char* id, const MethodSettings& settings) 
         return invalid(fmt::format("MethodSettings::falloff.length is {}; it must be finite and above 0", falloff.length));
     if (falloff.kind == FalloffKind::ramp && !(falloff.end > falloff.length))
         return invalid(fmt::format("MethodSettings::falloff.end is {}; a ramp ends beyond its length, {}", falloff.end, falloff.length));
+    if (settings.bentNormals && !info->bentNormals)
+        return invalid(fmt::format("MethodSettings::bentNormals: {} has none; {} do", info->id, bentNormalsFrom()));
+    values.bentNormals = settings.bentNormals;
     if (!context.library->prepare(values, falloff.kind)) return statusOf(context.device->failure());
     context.capacity.clear();
     context.values = std::move(values);

@@ -22,6 +22,13 @@ void previousFromEye(const float now[16], const float previous[16], float rows[1
 
 }  // namespace
 
+std::string bentNormalsFrom() {
+    std::string ids;
+    for (const MethodInfo* info : methods())
+        if (info->bentNormals) ids += (ids.empty() ? "" : ", ") + std::string(info->id);
+    return ids;
+}
+
 Library::Library(gpu::Device& device, const gpu::ShaderLibrary& shaders) : m_device(device), m_shaders(shaders) {
     m_valid = Prepare::create(device, shaders, m_prepare) == Status::ok && Temporal::create(device, shaders, m_temporal) == Status::ok &&
               Reduction::create(device, shaders, m_reduction) == Status::ok && Controls::create(device, shaders, m_controls) == Status::ok;
@@ -31,16 +38,23 @@ Library::~Library() = default;
 
 bool Library::prepare(const MethodInfo& info, FalloffKind falloff) { return methodOf(Values(info), falloff) != nullptr; }
 
-std::pair<size_t, FalloffKind> Library::keyOf(const Values& values, FalloffKind falloff) const {
-    return {values.index(), registry()[values.index()].perFalloff ? falloff : FalloffKind{}};
+Library::Key Library::keyOf(const Values& values, FalloffKind falloff) const {
+    return {values.index(), registry()[values.index()].perFalloff ? falloff : FalloffKind{}, values.bentNormals};
 }
 
 Method* Library::methodOf(const Values& values, FalloffKind falloff) {
     if (!m_valid || values.index() == Values::kUnregistered) return nullptr;
+    const MethodEntry& entry = registry()[values.index()];
+    const auto create = values.bentNormals ? entry.createBent : entry.create;
+    if (!create) {
+        m_device.log(
+            gpu::Severity::error, std::string("obscurance: ") + entry.info->id + " has no bent normals; " + bentNormalsFrom() + " do");
+        return nullptr;
+    }
     Made& made = m_methods[keyOf(values, falloff)];
     const uint64_t before = m_device.memoryUse();
     if (!made.method) {
-        made.method = registry()[values.index()].create(m_device, m_shaders, falloff);
+        made.method = create(m_device, m_shaders, falloff);
         made.bytes = m_device.memoryUse() - before;
     }
     return made.method.get();
@@ -60,6 +74,11 @@ uint64_t Library::methodBytes() const {
 
 bool Library::prepare(const Values& values, FalloffKind falloff) {
     if (!methodOf(values, falloff)) return false;
+    if (values.bentNormals && !m_bentNormals) {
+        auto made = std::make_unique<BentNormals>();
+        if (BentNormals::create(m_device, m_shaders, *made) != Status::ok) return false;
+        m_bentNormals = std::move(made);
+    }
     if (!values.has("offscreen") || OffScreen(values.count("offscreen")) == OffScreen::off || m_offScreen.contains(falloff)) return true;
     auto made = std::make_unique<OffScreenPass>();
     if (OffScreenPass::create(m_device, m_shaders, falloff, *made) != Status::ok) return false;
@@ -107,13 +126,14 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     const uint32_t scale = values.info().needs ? 1u << values.count("scale") : 1;
     const Inputs reduced = scale > 1 ? m_reduction.reduce(m_device, m_shaders, graph, inputs, scale) : inputs;
     if (!reduced.depth) return {};
-    graph::ImageId visibility = method.add(graph, reduced, values);
+    const MethodOutput drawn = method.add(graph, reduced, values);
+    graph::ImageId visibility = drawn.visibility;
     const bool tracesItself = entry.needs && (entry.needs(values) & kVolume);
     if (visibility && values.has("offscreen") && OffScreen(values.count("offscreen")) != OffScreen::off && !tracesItself)
         visibility = m_offScreen.at(falloff.kind)
                          ->add(graph, reduced, visibility, method.blocking(reduced, values),
                              {OffScreen(values.count("offscreen")), values.count("offscreen_rays"), values["offscreen_stride"]});
-    if (!visibility || !values.info().needs) return {visibility, inputs};
+    if (!visibility || !values.info().needs) return {visibility, inputs, {}};
     if (scale > 1) visibility = m_reduction.enlarge(graph, inputs, reduced, scale, visibility);
     TemporalSettings temporal;
     temporal.history = values["temporal"];
@@ -121,7 +141,9 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     visibility = m_temporal.add(graph, inputs, visibility, temporal, last.history, discard, "temporal");
     ControlSettings controls{values["intensity"], values["power"], values["floor"], values["fade_from"], values["fade_to"]};
     if (entry.appliesPower) controls.power = 1.0f, controls.floor = 0.0f;
-    return {m_controls.add(graph, inputs, visibility, controls), inputs};
+    const graph::ImageId bent =
+        values.bentNormals ? m_bentNormals->add(graph, inputs, visibility, drawn.bentNormals, scale) : graph::ImageId{};
+    return {m_controls.add(graph, inputs, visibility, controls), inputs, bent};
 }
 
 }  // namespace obscura::ao

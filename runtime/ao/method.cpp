@@ -12,4 +12,8 @@ graph::ImageId allOpen(graph::Graph& graph, VkExtent2D visible, const char* pass
     return visibility;
 }
 
+graph::ImageId rawBentNormals(graph::Graph& graph, uint32_t width, uint32_t height, const char* name) {
+    return graph.image(name, {VK_FORMAT_R32G32_UINT, width, height});
+}
+
 }  // namespace obscura::ao

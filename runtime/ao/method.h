@@ -55,12 +55,26 @@ struct Blocking {
     float sheet = -1.0f;  // metres, >= 0: depth layers give the thickness, of the second layer too; open sheets have this one. < 0: unused
 };
 
+// Bent normals as a method gives them, before bent_normals.h averages them: what is blocked of the hemisphere's mean direction.
+struct RawBentNormals {
+    graph::ImageId image;  // R32G32_UINT, packed by ao/common/bent_normals.glsl; of a map with fewer pixels than the picture, if scale > 1
+    uint32_t scale = 1;    // picture pixels per pixel of the map, each way
+    uint32_t side = 1;     // of the tile that shares noise or directions, map pixels; 1: nothing is averaged
+};
+
+struct MethodOutput {
+    graph::ImageId visibility;   // R16F, view.visible in size
+    RawBentNormals bentNormals;  // of a method made by MethodEntry::createBent
+    MethodOutput(graph::ImageId image, const RawBentNormals& bent = {}) : visibility(image), bentNormals(bent) {}
+};
+
+graph::ImageId rawBentNormals(graph::Graph& graph, uint32_t width, uint32_t height, const char* name);  // an image for them
+
 class Method {
 public:
     virtual ~Method() = default;
-    // Adds passes; returns visibility, R16F, view.visible in size. Called every frame. State for later frames changes in Graph::onRecorded
-    // only.
-    virtual graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) = 0;
+    // Adds passes. Called every frame. State for later frames changes in Graph::onRecorded only.
+    virtual MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) = 0;
     // The default is a horizon method's: surfaces within reach block everything behind them. Methods with a thickness return it; methods in
     // which every surface blocks, however far, return an endless reach, and no hidden occluder is added.
     virtual Blocking blocking(const Inputs& inputs, const Values&) const { return {inputs.falloff.reach, Blocking::kEndless}; }
@@ -73,10 +87,12 @@ struct MethodEntry {
     // For frames whose falloff is of that kind; see perFalloff.
     // Null, with a log line, if a pipeline cannot be made.
     std::unique_ptr<Method> (*create)(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff);
+    // Makes a method that also gives bent normals; null: it has none.
+    std::unique_ptr<Method> (*createBent)(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) = nullptr;
     // Needs of these values beyond the table's; may be null.
     uint32_t (*needs)(const Values& values) = nullptr;
-    bool appliesPower = false;  // the method applies `power` and `floor` itself, before its blur
     bool perFalloff = true;     // pipelines contain the kind of falloff (falloffConstant()): one object for each kind
+    bool appliesPower = false;  // the method applies `power` and `floor` itself, before its blur
 };
 std::span<const MethodEntry> registry();
 

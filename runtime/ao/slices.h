@@ -27,4 +27,9 @@ inline constexpr Setting kSlicesLow[] = {{"slices", 1}, {"steps", 2}};
 inline constexpr Setting kSlicesMedium[] = {{"slices", 2}, {"steps", 2}};
 inline constexpr Setting kSlicesUltra[] = {{"slices", 9}};
 
+// The image of a method's raw bent normals; the blur averages as many pixels as XeGTAO's noise needs.
+inline RawBentNormals sliceBent(graph::Graph& graph, const Inputs& inputs, const char* name, SliceBlur blur) {
+    return {rawBentNormals(graph, inputs.view.visible.x, inputs.view.visible.y, name), 1, blur == SliceBlur::none ? 1u : 4u};
+}
+
 }  // namespace obscura::ao

@@ -17,7 +17,7 @@ Values::Values(const MethodInfo& info) : m_info(&info) {
 
 bool Values::apply(const Preset& preset) {
     bool known = true;
-    *this = Values(*m_info);
+    m_values = Values(*m_info).m_values;
     for (const Setting& setting : preset.settings) known &= set(setting.id, setting.value);
     return known;
 }

@@ -20,6 +20,7 @@ public:
     uint32_t count(const char* id) const { return uint32_t((*this)[id] + 0.5f); }
     const MethodInfo& info() const { return *m_info; }
     size_t index() const { return m_index; }  // of the method in registry(); kUnregistered for a test's own
+    bool bentNormals = false;                 // the method also gives bent normals
     static constexpr size_t kUnregistered = ~size_t(0);
     std::span<const float> values() const { return m_values; }
     bool operator==(const Values&) const = default;

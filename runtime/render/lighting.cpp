@@ -32,7 +32,8 @@ shared::LightingBlock blockOf(const Lighting::Inputs& in, uint32_t shadowSize) {
 }  // namespace
 
 gpu::Status Lighting::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Lighting& out) {
-    gpu::Status status = gpu::Program::compute(device, shaders, "scene/lighting.comp", {}, out.m_light);
+    gpu::Status status = gpu::Program::compute(device, shaders, "scene/lighting.comp", {}, out.m_light[0]);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "scene/lighting.comp:BENT", {}, out.m_light[1]);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/tonemap.comp", {}, out.m_tonemap);
     if (status != gpu::Status::ok) return status;
     gpu::GraphicsState state;
@@ -50,8 +51,8 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
     // As large as the depth buffer, which blended surfaces are tested against; lit in the visible part only.
     const graph::ImageId lit = graph.image("lit", {kLit, view.size.x, view.size.y});
     const GBuffer& g = in.gbuffer;
-    graph.pass("lighting", m_light)
-        .read(light)
+    graph::Pass& lighting = graph.pass("lighting", m_light[in.bentNormals ? 1 : 0]);
+    lighting.read(light)
         .read(in.linearDepth)
         .read(g.geometric)
         .read(g.shaded)
@@ -60,8 +61,9 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
         .read(g.emission)
         .read(in.visibility)
         .read(in.shadow.image, Sampling::shadow)
-        .write(lit)
-        .dispatch(view.visible.x, view.visible.y);
+        .write(lit);
+    if (in.bentNormals) lighting.read(in.bentNormals);
+    lighting.dispatch(view.visible.x, view.visible.y);
 
     if (!in.draws->blended.empty()) {
         graph::Pass& pass =

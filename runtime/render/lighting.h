@@ -18,6 +18,7 @@ public:
         GBuffer gbuffer;
         graph::ImageId linearDepth;  // as ao::Inputs::depth
         graph::ImageId visibility;
+        graph::ImageId bentNormals;  // optional: as Outputs::bentNormals
         Shadow::Map shadow;
         shared::View view;
         glm::mat4 eyeFromWorld{1.0f};
@@ -31,7 +32,7 @@ public:
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, Materials& materials);
 
 private:
-    gpu::Program m_light, m_tonemap;
+    gpu::Program m_light[2], m_tonemap;  // m_light: without and with bent normals
     MaterialProgram m_blend;
 };
 

@@ -173,7 +173,9 @@ ao::Library& Renderer::Impl::otherSide() {
 // Each side prepares its own inputs and has its own history, so its passes take the time that they take without the other side.
 ao::Inputs Renderer::Impl::obscurance(
     graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out) {
-    const auto run = [&](ao::Library& of, const ao::Values& values) {
+    const bool bends = options.bentNormals || options.view == View::bentNormals;
+    const auto run = [&](ao::Library& of, ao::Values values) {
+        values.bentNormals = values.info().bentNormals && (values.bentNormals || bends);
         ao::Library::Added added = of.add(graph, frame, sources, options.falloff, values);
         if (!added.visibility) added.visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has logged why
         // A method that cannot be made leaves no prepared depth, which lighting reads.
@@ -184,6 +186,7 @@ ao::Inputs Renderer::Impl::obscurance(
         if (other) other->discardHistory();  // it would be outdated when used again
         const ao::Library::Added only = run(library, *options.method);
         out.visibility = out.sides[0] = only.visibility;
+        out.bentNormals = only.bentNormals;
         return only.inputs;
     }
     graph.prefix("A.");
@@ -194,6 +197,7 @@ ao::Inputs Renderer::Impl::obscurance(
     out.sides[0] = left.visibility;
     out.sides[1] = right.visibility;
     out.visibility = views.split(graph, out.sides[0], out.sides[1], options.split);
+    if (left.bentNormals && right.bentNormals) out.bentNormals = views.split(graph, left.bentNormals, right.bentNormals, options.split);
     return left.inputs;
 }
 
@@ -266,6 +270,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
         in.gbuffer = g;
         in.linearDepth = prepared.depth;
         in.visibility = out.visibility;
+        if (options.bentNormals) in.bentNormals = out.bentNormals;
         in.view = view;
         in.eyeFromWorld = camera.view;
         in.sun = options.sun;
@@ -293,6 +298,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
         out.color =
             impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
     if (options.view == View::history || options.view == View::rejected) out.color = impl.views.addHistory(graph, options.view, view);
+    if (options.view == View::bentNormals && out.bentNormals) out.color = impl.views.directions(graph, out.bentNormals, view);
     if (!out.color) out.color = impl.views.add(graph, options.view, g, sources.layers, out.visibility, view);
     return out;
 }

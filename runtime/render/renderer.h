@@ -20,6 +20,7 @@ enum class View : uint8_t {
     visibility,
     normals,
     shadedNormals,
+    bentNormals,
     depth,
     motion,
     baseColor,
@@ -40,9 +41,9 @@ enum class View : uint8_t {
 // "final", "visibility", ..., or "pass:NAME" (the first image that the graph's pass NAME writes); false if unknown.
 bool parseView(const std::string& text, View& view, std::string& pass);
 const char* name(View view);
-inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::depth, View::motion,
-    View::baseColor, View::roughness, View::metalness, View::emission, View::thickness, View::second, View::secondThickness, View::voxels,
-    View::voxelSlice, View::difference, View::signedDifference, View::history, View::rejected};
+inline constexpr View kViews[] = {View::final, View::visibility, View::normals, View::shadedNormals, View::bentNormals, View::depth,
+    View::motion, View::baseColor, View::roughness, View::metalness, View::emission, View::thickness, View::second, View::secondThickness,
+    View::voxels, View::voxelSlice, View::difference, View::signedDifference, View::history, View::rejected};
 // Views of the volume; the volume is then made even if no method needs it.
 constexpr bool isVoxels(View view) { return view == View::voxels || view == View::voxelSlice; }
 // Views of the difference of two methods' visibility; without a second method they show the first one's visibility.
@@ -85,6 +86,8 @@ struct FrameOptions {
     std::string passView;     // for View::pass
     uint32_t sampleStep = 0;  // px between samples of Outputs::samples; 0: none
     LayerForm layerForm = LayerForm::best;
+    // Ambient light is taken from the bent normals, and blocked reflections from their cone, where the methods of both sides have them.
+    bool bentNormals = false;
     Voxelization voxels;  // for methods that need a volume
     VoxelSlice slice;
     Sun sun;
@@ -99,7 +102,9 @@ struct FrameOptions {
 struct Outputs {
     graph::ImageId color;       // the image of `view`: R8G8B8A8_UNORM, sRGB-encoded where it is a colour, visible size
     graph::ImageId visibility;  // R16F, visible size: of the method, or of A and B on their sides of the divider
-    graph::ImageId sides[2];    // R16F, visible size: of A and of B alone; the latter only with `compare`
+    // As ao::Library::Added's, of the method, or of A and B on their sides; if all of their values or FrameOptions ask for them and have them.
+    graph::ImageId bentNormals;
+    graph::ImageId sides[2];  // R16F, visible size: of A and of B alone; the latter only with `compare`
     // Data of every sampleStep-th visible pixel, at (i + 1/2) sampleStep px: half floats of A's and B's visibility, linear depth as float
     // bits, packed normal, half floats of motion in px. R32G32B32A32_UINT, size / sampleStep. Only with `sampleStep`.
     graph::ImageId samples;

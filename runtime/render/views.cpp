@@ -8,9 +8,9 @@
 namespace obscura::render {
 namespace {
 
-constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "depth", "motion", "base-color", "roughness",
-    "metalness", "emission", "thickness", "second", "second-thickness", "voxels", "voxel-slice", "difference", "signed-difference",
-    "history", "rejected", "pass"};
+constexpr const char* kNames[] = {"final", "visibility", "normals", "shaded-normals", "bent-normals", "depth", "motion", "base-color",
+    "roughness", "metalness", "emission", "thickness", "second", "second-thickness", "voxels", "voxel-slice", "difference",
+    "signed-difference", "history", "rejected", "pass"};
 
 // The display mode of a pass's image, from its format and name.
 uint32_t modeOf(VkFormat format, const std::string& name) {
@@ -25,6 +25,7 @@ uint32_t modeOf(VkFormat format, const std::string& name) {
         case VK_FORMAT_R8_UNORM:
         case VK_FORMAT_R16_UNORM:
         case VK_FORMAT_R16_SFLOAT: return shared::kViewGrey;
+        case VK_FORMAT_R8G8B8A8_SNORM: return shared::kViewDirection;
         case VK_FORMAT_R16G16_SFLOAT: return name.find("motion") != std::string::npos ? shared::kViewMotion : shared::kViewValues;
         case VK_FORMAT_R8G8B8A8_SRGB:
         case VK_FORMAT_R16G16B16A16_SFLOAT:
@@ -56,7 +57,8 @@ bool parseView(const std::string& text, View& view, std::string& pass) {
 gpu::Status Views::create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Views& out) {
     gpu::Status status = gpu::Program::compute(device, shaders, "post/view_float.comp", {}, out.m_float);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/view_uint.comp", {}, out.m_uint);
-    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp", {}, out.m_split);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp", {}, out.m_split[0]);
+    if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/split.comp:DIRECTIONS", {}, out.m_split[1]);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/difference.comp", {}, out.m_difference);
     if (status == gpu::Status::ok) status = gpu::Program::compute(device, shaders, "post/samples.comp", {}, out.m_samples);
     out.m_shaders = &shaders;
@@ -107,6 +109,10 @@ graph::ImageId Views::add(
     }
 }
 
+graph::ImageId Views::directions(graph::Graph& graph, graph::ImageId image, const shared::View& frame) {
+    return show(graph, image, shared::kViewDirection, frame);
+}
+
 graph::ImageId Views::addHistory(graph::Graph& graph, View view, const shared::View& frame) {
     for (const graph::Graph::Written& written : graph.written())
         if (written.pass == "temporal" && graph.desc(written.image).format == VK_FORMAT_R32G32_UINT)
@@ -117,8 +123,9 @@ graph::ImageId Views::addHistory(graph::Graph& graph, View view, const shared::V
 graph::ImageId Views::split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider) {
     const gpu::ImageDesc desc = graph.desc(a);
     const shared::SplitBlock block{{desc.width, desc.height}, dividerColumn(divider, desc.width), 0};
-    const graph::ImageId both = graph.image("split visibility", {VK_FORMAT_R16_SFLOAT, desc.width, desc.height});
-    graph.pass("split", m_split).read(a).read(b).write(both).constants(block).dispatch(desc.width, desc.height);
+    const bool directions = desc.format == VK_FORMAT_R8G8B8A8_SNORM;
+    const graph::ImageId both = graph.image(directions ? "split bent normals" : "split visibility", {desc.format, desc.width, desc.height});
+    graph.pass("split", m_split[directions]).read(a).read(b).write(both).constants(block).dispatch(desc.width, desc.height);
     return both;
 }
 

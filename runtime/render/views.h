@@ -20,7 +20,9 @@ public:
     // History of the temporal pass. View::history: accumulated frames per pixel, logarithmic, white at 63. View::rejected: white where
     // history was rejected, or clamped so far that accumulation starts again. None without a history.
     graph::ImageId addHistory(graph::Graph& graph, View view, const shared::View& frame);
-    // Of A's and B's visibility, visible size. split(): A left of the divider, B right of it, R16F. difference(): |A - B| / range as grey,
+    // Directions d of length 1 or 0, signed, visible size: d/2 + 1/2.
+    graph::ImageId directions(graph::Graph& graph, graph::ImageId image, const shared::View& frame);
+    // Of A's and B's visibility, visible size. split(): A left of the divider, B right of it, of A's format. difference(): |A - B| / range as grey,
     // or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is darker).
     graph::ImageId split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider);
     graph::ImageId difference(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float range, bool withSign);
@@ -32,8 +34,8 @@ public:
 
 private:
     graph::ImageId show(graph::Graph& graph, graph::ImageId source, uint32_t mode, const shared::View& frame);
-    gpu::Program m_float, m_uint, m_split, m_difference, m_samples;
-    gpu::Program m_voxels[2];  // by the volume's structure; created at first use
+    gpu::Program m_float, m_uint, m_split[2], m_difference, m_samples;  // m_split: of visibility, of bent normals
+    gpu::Program m_voxels[2];                                           // by the volume's structure; created at first use
     const gpu::ShaderLibrary* m_shaders = nullptr;
 };
 

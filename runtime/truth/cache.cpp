@@ -12,6 +12,7 @@ namespace {
 // Cache versions: raise one when the same inputs give another result (rays, offsets, estimates).
 constexpr uint32_t kVersion = 1, kScreenVersion = 2;
 constexpr const char* kRays = "rays";
+constexpr const char* kBent[] = {"bent_x", "bent_y", "bent_z", "bent_above"};  // of a BentReference
 
 std::string channelName(const char* kind, size_t index, const std::string& name) { return fmt::format("{}.{:02}.{}", kind, index, name); }
 
@@ -60,7 +61,10 @@ Reference read(const std::filesystem::path& file) {
         if (!obscurance) break;
         Picture::Channel* error = take(channelName("error", i, ""));
         require(error);
-        reference.channels.push_back({obscurance->name.substr(prefix.size()), plane(*obscurance), plane(*error)});
+        reference.channels.push_back({obscurance->name.substr(prefix.size()), plane(*obscurance), plane(*error), {}});
+        BentReference& bent = reference.channels.back().bent;
+        for (size_t k = 0; k < 4; ++k)
+            if (Picture::Channel* stored = take(channelName(kBent[k], i, ""))) (k < 3 ? bent.mean[k] : bent.above) = plane(*stored);
     }
     Picture::Channel* rays = take(kRays);
     require(rays && !reference.channels.empty());
@@ -75,6 +79,9 @@ void write(const std::filesystem::path& file, const Reference& reference) {
     for (size_t i = 0; i < reference.channels.size(); ++i) {
         picture.add(channelName("obscurance", i, reference.channels[i].name), reference.channels[i].obscurance);
         picture.add(channelName("error", i, reference.channels[i].name), reference.channels[i].error);
+        const BentReference& bent = reference.channels[i].bent;
+        for (size_t k = 0; bent && k < 4; ++k)
+            picture.add(channelName(kBent[k], i, reference.channels[i].name), k < 3 ? bent.mean[k] : bent.above);
     }
     picture.add(kRays, reference.rays);
     writeExr(file, picture);
@@ -94,6 +101,7 @@ std::string worldKey(std::span<const scene::PosedPrimitive> primitives, const Wo
     add(hash, frame);
     add(hash, falloffs);
     add(hash, options);
+    if (options.bentNormals) hash.add("bent");
     return "world-" + hash.hex();
 }
 

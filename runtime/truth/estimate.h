@@ -46,7 +46,7 @@ struct Schedule {
 // Output planes for `falloffs`, all zero.
 inline Reference emptyReference(uint32_t width, uint32_t height, std::span<const RayFalloff> falloffs) {
     Reference reference;
-    for (const RayFalloff& falloff : falloffs) reference.channels.push_back({falloff.name, Plane(width, height), Plane(width, height)});
+    for (const RayFalloff& falloff : falloffs) reference.channels.push_back({falloff.name, Plane(width, height), Plane(width, height), {}});
     reference.rays = Plane(width, height);
     return reference;
 }

@@ -40,12 +40,20 @@ struct RayOptions {
 
 inline constexpr uint32_t kBatch = 16;
 
+// Of unblocked light, from the same rays: with V = 1 - rho(distance of the first hit), means over the rays. World space, y up.
+struct BentReference {
+    Plane mean[3];  // x, y, z of V times the ray; not normalised. With an open hemisphere 2/3 of the normal
+    Plane above;    // V of the rays that go up, 0 for others
+    explicit operator bool() const { return above.pixels() > 0; }
+};
+
 // The result, for the visible part. Sky has obscurance 0, error 0 and no rays.
 struct Reference {
     struct Channel {
         std::string name;  // of the falloff
         Plane obscurance;
-        Plane error;  // estimated standard error of the mean; conservative for few rays
+        Plane error;         // estimated standard error of the mean; conservative for few rays
+        BentReference bent;  // with WorldOptions::bentNormals
     };
     std::vector<Channel> channels;  // one per falloff, in the order given, from the same rays
     Plane rays;                     // count per pixel

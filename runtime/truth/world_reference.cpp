@@ -190,13 +190,15 @@ struct WorldReference::Impl {
 
     // Traces one receiver; returns the number of rays.
     uint32_t traceReceiver(Caster& caster, const Receiver& receiver, size_t index, std::span<const RayFalloff> falloffs,
-        const WorldOptions& options, const Schedule& schedule, std::vector<Sums>& sums, Reference& out) const {
+        const WorldOptions& options, const Schedule& schedule, std::vector<Sums>& sums, std::vector<glm::vec4>& bent,
+        Reference& out) const {
         const Basis basis(receiver.normal);
         const glm::vec3 a = glm::abs(receiver.position);
         const float offset = std::max(options.offset * receiver.scale, 1e-6f * std::max(a.x, std::max(a.y, a.z)));
         const glm::vec3 origin = receiver.position + (receiver.normal + receiver.towards) * offset;
         const uint32_t seed = shared::receiverSeed(options.seed, uint32_t(index));
         for (Sums& s : sums) s.fill(0.0f);
+        std::fill(bent.begin(), bent.end(), glm::vec4(0.0f));
         std::array<glm::vec3, kBatch> directions;
         Distances distances;
         uint32_t point = 0;
@@ -208,6 +210,12 @@ struct WorldReference::Impl {
                 for (uint32_t s = 0; s < kBatch; ++s)
                     for (size_t f = 0; distances[s] < kEscaped && f < falloffs.size(); ++f)
                         if (distances[s] <= falloffs[f].reach) sums[f][s] += falloffs[f].hard ? 1.0f : falloffs[f].rho(distances[s]);
+                for (size_t f = 0; f < bent.size(); ++f)
+                    for (uint32_t s = 0; s < kBatch; ++s) {
+                        const bool counts = distances[s] < kEscaped && distances[s] <= falloffs[f].reach;
+                        const float open = !counts ? 1.0f : falloffs[f].hard ? 0.0f : 1.0f - falloffs[f].rho(distances[s]);
+                        bent[f] += open * glm::vec4(directions[s], directions[s].y > 0.0f ? 1.0f : 0.0f);
+                    }
             }
             float worst = 0.0f;
             for (size_t f = 0; f < falloffs.size(); ++f) {
@@ -219,6 +227,11 @@ struct WorldReference::Impl {
             if (point >= schedule.last || worst <= schedule.target) break;
         }
         out.rays.values[index] = float(point * kBatch);
+        for (size_t f = 0; f < bent.size(); ++f) {
+            bent[f] /= float(point * kBatch);
+            for (int axis = 0; axis < 3; ++axis) out.channels[f].bent.mean[axis].values[index] = bent[f][axis];
+            out.channels[f].bent.above.values[index] = bent[f].w;
+        }
         return point * kBatch;
     }
 };
@@ -276,6 +289,10 @@ Reference WorldReference::trace(
     if (width == 0) width = uint32_t(receivers.size());
     const Clock::time_point start = Clock::now();
     Reference out = emptyReference(width, width ? uint32_t((receivers.size() + width - 1) / width) : 0, falloffs);
+    for (Reference::Channel& channel : out.channels)
+        if (options.bentNormals)
+            for (Plane* plane : {&channel.bent.mean[0], &channel.bent.mean[1], &channel.bent.mean[2], &channel.bent.above})
+                *plane = Plane(out.rays.width, out.rays.height);
     const Schedule schedule(options);
     float length = 0.0f;
     bool anyHit = true;
@@ -294,12 +311,13 @@ Reference WorldReference::trace(
     const auto work = [&](bool reportsProgress) {
         Caster caster(m_impl->scene, length, anyHit, options.packets);
         std::vector<Sums> sums(falloffs.size());
+        std::vector<glm::vec4> bent(options.bentNormals ? falloffs.size() : 0);
         for (size_t block; !stop && (block = nextBlock++) < blocks;) {
             uint64_t cast = 0;
             const size_t end = std::min(receivers.size(), (block + 1) * kBlock);
             for (size_t i = block * kBlock; i < end; ++i)
                 if (receivers[i].normal != glm::vec3(0.0f))
-                    cast += m_impl->traceReceiver(caster, receivers[i], i, falloffs, options, schedule, sums, out);
+                    cast += m_impl->traceReceiver(caster, receivers[i], i, falloffs, options, schedule, sums, bent, out);
             rays += cast;
             const size_t done = ++finished;
             if (reportsProgress && options.progress && !options.progress(float(done) / float(blocks))) stop = true;

@@ -23,6 +23,7 @@ struct WorldOptions : RayOptions {
     // of a float position, less than visible. Since nothing is between a visible point and the camera, a point in the corner of two walls
     // is moved off both.
     float offset = 1e-4f;
+    bool bentNormals = false;  // also gives Reference::Channel::bent; the rays are the same
 };
 
 class WorldReference {

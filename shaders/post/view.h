@@ -53,7 +53,8 @@ uint kViewColor = 0,      // linear colour, sRGB-encoded
      kViewHistory = 9,    // history of ao/common/temporal.comp: accumulated frames
      kViewRejected = 10,  // history of ao/common/temporal.comp: white where accumulation starts again
      kViewThickness = 11,  // ao::DepthLayers::thickness
-     kViewSecondThickness = 12;  // thickness in ao::DepthLayers::second; black without a second layer
+     kViewSecondThickness = 12,  // thickness in ao::DepthLayers::second; black without a second layer
+     kViewDirection = 13;  // d/2 + 1/2 of three signed channels
 
 OBSCURA_SHARED_END
 #endif

@@ -32,6 +32,7 @@ vec3 valueOf(vec4 texel) {
         case kViewSecondThickness: return texel.x <= 0.0 ? vec3(0.0) : thicknessColor(texel.y);
         // Grey at 0; red is horizontal, green vertical, saturated at 32 px. The square root makes small motion visible.
         case kViewMotion: return vec3(0.5 + 0.5 * sign(texel.xy) * sqrt(min(abs(texel.xy) / 32.0, 1.0)), 0.5);
+        case kViewDirection: return texel.rgb * 0.5 + 0.5;
         case kViewValues: return texel.rgb;
         default: return texel.rrr;
     }

@@ -1,6 +1,7 @@
 // Lighting of the visible part. In: linear depth, G-buffer, visibility, shadow map. Out: radiance, linear; the guard band is not written.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variant BENT
 #include "scene/shade.glsl"
 #include "shared/octahedral.glsl"
 
@@ -16,6 +17,9 @@ layout(set = 0, binding = 6) uniform sampler2D emissionMap;
 layout(set = 0, binding = 7) uniform sampler2D visibilityMap;  // visible size
 layout(set = 0, binding = 8) uniform sampler2DShadow shadowMap;
 layout(set = 0, binding = 9, rgba16f) writeonly uniform image2D lit;
+#ifdef BENT
+layout(set = 0, binding = 10) uniform sampler2D bentMap;  // visible size
+#endif
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -44,6 +48,10 @@ void main() {
     s.roughness = material.x;
     s.metalness = material.y;
     s.visibility = texelFetch(visibilityMap, at, 0).x * color.a;
+#ifdef BENT
+    // The bend belongs to the geometric normal; a normal map turns the bent normal by as much as the normal.
+    s.ambient = normalize(texelFetch(bentMap, at, 0).xyz + s.normal - s.geometric);
+#endif
     float sun = sunlight(light, shadowMap, s.position, s.geometric);
     imageStore(lit, p, vec4(shade(light, s, sun) + emission, 1.0));
 }

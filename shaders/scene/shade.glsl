@@ -13,6 +13,9 @@ struct Surface {
     float roughness;
     float metalness;
     float visibility; // of the ambient light; 1: open
+#ifdef BENT
+    vec3 ambient;     // the bent normal, from which ambient light is taken
+#endif
 };
 
 // Radiance of the background in a direction: sky above, ground below, a paler horizon between.
@@ -40,6 +43,23 @@ vec3 environmentBrdf(vec3 f0, float roughness, float nv) {
 float specularVisibility(float visibility, float nv, float roughness) {
     return clamp(pow(nv + visibility, exp2(-16.0 * roughness - 1.0)) - 1.0 + visibility, 0.0, 1.0);
 }
+
+#ifdef BENT
+// Part of the reflection's cone that is in the cone of unblocked directions around the bent normal [Jimenez 2016, Practical Real-Time
+// Strategies for Accurate Indirect Occlusion, sec. 5: half angles of cosines sqrt(1 - V) and 10^-(roughness^2)]. The cones are caps of the
+// sphere, whose intersection is interpolated [Oat, Sander 2007, Ambient Aperture Lighting].
+float conesVisibility(float visibility, float roughness, vec3 bent, vec3 reflected) {
+    float openCosine = sqrt(clamp(1.0 - visibility, 0.0, 1.0)), lobeCosine = min(exp2(-3.32193 * roughness * roughness), 0.9999);
+    float open = acos(openCosine), lobe = acos(lobeCosine), between = acos(clamp(dot(bent, reflected), -1.0, 1.0));
+    float inside = abs(open - lobe), apart = open + lobe, smaller = 1.0 - max(openCosine, lobeCosine);
+    float both = smoothstep(0.0, 1.0, 1.0 - clamp((between - inside) / max(apart - inside, 1e-4), 0.0, 1.0));
+    return clamp(smaller * both / (1.0 - lobeCosine), 0.0, 1.0);
+}
+// Relative to an open surface, whose reflection is partly below it at grazing angles.
+float specularVisibility(float visibility, float roughness, vec3 bent, vec3 normal, vec3 reflected) {
+    return min(conesVisibility(visibility, roughness, bent, reflected) / max(conesVisibility(1.0, roughness, normal, reflected), 1e-3), 1.0);
+}
+#endif
 
 // GGX with height-correlated Smith [Walter 2007; Heitz 2014] and Schlick's Fresnel, times n.l.
 vec3 sunReflection(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float roughness) {
@@ -88,11 +108,20 @@ vec3 shade(LightingBlock light, Surface s, float sun) {
     float nv = clamp(dot(s.normal, v), 1e-3, 1.0);
     vec3 f0 = mix(vec3(0.04), s.baseColor, s.metalness);
     vec3 diffuse = s.baseColor * (1.0 - s.metalness);
+#ifdef BENT
+    vec3 color = diffuse * hemisphere(light, s.ambient) * s.visibility;
+#else
     vec3 color = diffuse * hemisphere(light, s.normal) * s.visibility;
+#endif
     // With growing roughness the reflection approaches the hemisphere light.
     vec3 r = reflect(-v, s.normal);
     vec3 mirrored = mix(skyRadiance(light, r), hemisphere(light, r), s.roughness * s.roughness);
-    color += mirrored * environmentBrdf(f0, s.roughness, nv) * specularVisibility(s.visibility, nv, s.roughness);
+#ifdef BENT
+    float reflects = specularVisibility(s.visibility, s.roughness, s.ambient, s.normal, r);
+#else
+    float reflects = specularVisibility(s.visibility, nv, s.roughness);
+#endif
+    color += mirrored * environmentBrdf(f0, s.roughness, nv) * reflects;
     if (sun > 0.0) color += sunReflection(s.normal, v, light.toSun.xyz, diffuse, f0, s.roughness) * light.sun.rgb * sun;
     return color;
 }

@@ -19,6 +19,45 @@ TEST_F(ApiTest, everyMethodGivesVisibility) {
     EXPECT_GT(memoryUse(m_context), 0u);
 }
 
+// Without the request there is no second image, and visibility is the same to the bit; a method without bent normals says which have them.
+TEST_F(ApiTest, bentNormalsAreASecondImage) {
+    size_t given = 0;
+    for (const MethodInfo* info : methods()) {
+        MethodSettings settings;
+        ASSERT_EQ(setMethod(m_context, info->id, settings), Status::ok);
+        const Output without = once(frame());
+        EXPECT_EQ(without.bentNormals, VkImage(VK_NULL_HANDLE));
+        const std::vector<float> visibility = pixels(without);
+        settings.bentNormals = true;
+        lines().clear();
+        EXPECT_EQ(setMethod(m_context, info->id, settings), info->bentNormals ? Status::ok : Status::invalid) << info->id;
+        EXPECT_EQ(said("MethodSettings::bentNormals: " + std::string(info->id) + " has none; "), !info->bentNormals);
+        EXPECT_EQ(said("gtao"), !info->bentNormals) << "the line names the methods that have them";
+        const Output output = once(frame());
+        ASSERT_EQ(output.status, Status::ok);
+        EXPECT_EQ(pixels(output), visibility) << info->id;
+        EXPECT_EQ(output.bentNormals != VkImage(VK_NULL_HANDLE), info->bentNormals) << info->id;
+        if (!info->bentNormals) continue;
+        ++given;
+        EXPECT_NE(output.bentNormalsView, VkImageView(VK_NULL_HANDLE));
+        std::vector<std::byte> bytes;
+        const gpu::ImageDesc desc{VK_FORMAT_R8G8B8A8_SNORM, m_room.visibleWidth(), m_room.visibleHeight()};
+        ASSERT_EQ(gpu::download(m_device, output.bentNormals, desc, output.layout, bytes), gpu::Status::ok);
+        ASSERT_EQ(bytes.size(), 4 * visibility.size());
+        for (size_t i = 0; i < visibility.size(); ++i) {
+            const auto* texel = reinterpret_cast<const int8_t*>(&bytes[4 * i]);
+            ASSERT_NEAR(texel[3] / 127.0f, visibility[i], 0.6f / 127.0f);
+            const int length2 = texel[0] * texel[0] + texel[1] * texel[1] + texel[2] * texel[2];
+            ASSERT_TRUE(length2 == 0 || std::abs(length2 - 127 * 127) < 3 * 127) << info->id << " pixel " << i;
+        }
+        for (int i = 0; i < 8; ++i) ASSERT_EQ(once(frame()).status, Status::ok);
+        const uint64_t held = memoryUse(m_context);
+        for (int i = 0; i < 8; ++i) ASSERT_EQ(once(frame()).status, Status::ok);
+        EXPECT_LE(memoryUse(m_context), held) << "nothing is allocated after the first frames";
+    }
+    EXPECT_GE(given, 1u);
+}
+
 TEST_F(ApiTest, noAllocationAfterTheFirstFrames) {
     for (int i = 0; i < 4; ++i) once(frame());
     const uint64_t before = memoryUse(m_context);

@@ -152,6 +152,7 @@ TEST_F(MemoryTest, predictionIsExactToTheByte) {
             MethodSettings settings;
             settings.preset = preset.id;
             if (temporal) settings.settings = {&history, 1};
+            settings.bentNormals = temporal && info->bentNormals;
             ASSERT_EQ(setMethod(m_context, info->id, settings), Status::ok);
             Frame f = frame();
             if (temporal) f.motion = f.normals;

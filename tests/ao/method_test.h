@@ -66,7 +66,8 @@ protected:
         if (!room.thickness.empty()) sources.layers.thickness = import("thickness", thickness = room.layer(m_device, false));
         if (!room.second.empty()) sources.layers.second = import("second layer", second = room.layer(m_device, true));
         if (!room.bits.empty()) sources.volume = m_graph->upload("bits", room.bits.data(), room.bits.size() * sizeof(uint32_t));
-        const graph::ImageId visibility = m_library->add(*m_graph, frame, sources, rho, values).visibility;
+        const ao::Library::Added added = m_library->add(*m_graph, frame, sources, rho, values);
+        const graph::ImageId visibility = added.visibility;
         EXPECT_TRUE(bool(visibility));
         if (!visibility) return {};
         graph::ImageId probed;
@@ -74,7 +75,9 @@ protected:
             if (m_graph->name(written.image) == m_probe) probed = written.image;
         EXPECT_TRUE(m_probe.empty() || probed) << m_probe;
         const gpu::Buffer back = readBack(*m_graph, visibility);
-        gpu::Buffer probe;
+        gpu::Buffer probe, bent;
+        EXPECT_EQ(bool(added.bentNormals), values.bentNormals);
+        if (added.bentNormals) bent = readBack(*m_graph, added.bentNormals);
         if (probed) probe = readBack(*m_graph, probed);
         m_passes.clear();
         for (const auto& written : m_graph->written()) m_passes.insert(written.pass);
@@ -87,6 +90,11 @@ protected:
             m_probed.words.resize(size_t(m_probed.width) * m_probed.height * m_probed.each);
             std::memcpy(m_probed.words.data(), probe.mapped(), m_probed.words.size() * 4);
         }
+        m_bent.clear();
+        for (size_t i = 0; bent && i < size_t(room.visibleWidth()) * room.visibleHeight(); ++i) {
+            auto& texel = m_bent.emplace_back();
+            for (size_t c = 0; c < 4; ++c) texel[c] = float(int8_t(bent.mapped()[4 * i + c])) / 127.0f;
+        }
         Picture result = halvesOf(back);
         for (float& v : result) v = 1.0f - v;
         return result;
@@ -98,7 +106,8 @@ protected:
     std::unique_ptr<graph::Graph> m_graph;
     std::unique_ptr<graph::Executor> m_executor;
     std::unique_ptr<ao::Library> m_library;
-    std::set<std::string> m_passes;  // of the last run
+    std::set<std::string> m_passes;            // of the last run
+    std::vector<std::array<float, 4>> m_bent;  // bent normals and visibility of the last run, if it was asked for them
     std::string m_probe;  // name of an image with one or two 32-bit words a texel that a pass writes; run() reads it back into m_probed
     struct {
         uint32_t width = 0, height = 0, each = 1;

@@ -223,6 +223,34 @@ TEST(OnAScene, capturedFrameGivesTheSameErrors) {
     EXPECT_EQ(a["pixels"], b["pixels"]);
 }
 
+TEST(OnAScene, measuresBentNormals) {
+    const TemporaryFolder scratch;
+    const std::string folder = (scratch / "out").string(), file = (scratch / "a.json").string();
+    const Ended ended = runTool(shellCommand(
+        "--scene toasters --size 96x54 --rays 64 --frames 1 --method layered,ssao --bent-normals --json {} --out {}", file, folder));
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    EXPECT_NE(ended.out.find("the reference itself"), std::string::npos) << ended.out;
+    const json rows = json::parse(textOf(file));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_FALSE(rows[1].contains("bentNormals")) << "ssao has none";
+    const json bent = rows[0].at("bentNormals"), least = bent.at("reference");
+    EXPECT_EQ(bent["pixels"], rows[0]["pixels"]);
+    EXPECT_GT(bent["degrees"], 0.5);
+    EXPECT_LT(bent["degrees"], 0.7 * bent["normalDegrees"].get<double>());
+    EXPECT_LT(bent["irradianceErrorBent"], bent["irradianceError"]);
+    EXPECT_LT(least["irradianceErrorBent"], least["irradianceError"]);
+    EXPECT_LT(least["irradianceErrorBent"], bent["irradianceErrorBent"]);
+    EXPECT_TRUE(fs::exists(scratch / "out/toasters.own.layered.default.quadratic_2.bent.png"));
+    EXPECT_FALSE(fs::exists(scratch / "out/toasters.own.ssao.default.quadratic_2.bent.png"));
+    for (const char* arguments :
+        {"--scene toasters --method ssao --bent-normals", "--scene toasters --method gtao --reference screen --bent-normals"}) {
+        const Ended refused = runTool(arguments);
+        EXPECT_EQ(refused.code, 2) << arguments;
+        EXPECT_EQ(refused.errorLines(), 1u) << refused.error;
+        EXPECT_NE(refused.error.find("--bent-normals: "), std::string::npos) << refused.error;
+    }
+}
+
 TEST(OnAScene, passesOfSomeFramesOnlyAreTimed) {
     // Depth layers are drawn by two techniques in turn until one is measured to be cheaper.
     const TemporaryFolder scratch;

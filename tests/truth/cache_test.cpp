@@ -50,6 +50,24 @@ TEST(Cache, findsStoredReferences) {
     EXPECT_TRUE(lines.empty());
 }
 
+TEST(Cache, keepsBentNormals) {
+    const TemporaryFolder scratch;
+    Setting setting;
+    const std::string without = setting.key();
+    setting.options.bentNormals = true;
+    EXPECT_NE(setting.key(), without);
+    ReferenceCache cache(scratch.path());
+    const Reference fresh = cache.get(setting.key(), [&] { return setting.make(); }),
+                    found = cache.get(setting.key(), [&] { return setting.make(); });
+    EXPECT_TRUE(found.fromCache);
+    ASSERT_EQ(found.channels.size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        for (size_t axis = 0; axis < 3; ++axis)
+            EXPECT_EQ(found.channels[i].bent.mean[axis].values, fresh.channels[i].bent.mean[axis].values);
+        EXPECT_EQ(found.channels[i].bent.above.values, fresh.channels[i].bent.above.values);
+    }
+}
+
 TEST(Cache, damagedFilesAreReplacedWithALogLine) {
     const Setting setting;
     for (const int damage : {0, 1, 2}) {

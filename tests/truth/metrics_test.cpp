@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "scratch.h"
+#include "truth/bent_normals.h"
 #include "truth/metrics.h"
 
 namespace {
@@ -188,6 +189,33 @@ TEST(Metrics, invalidInputGivesOneLine) {
     test::expectError([&] { compare(c, a); }, "the picture holds nan at pixel (3, 4)");
     test::expectError([&] { compare(a, c); }, "the reference holds nan at pixel (3, 4)");
     test::expectError([&] { compare(a, a, Mask(99, 1)); }, "a mask of 99 pixels");
+}
+
+// A surface that faces aside under a roof: half of its sky is blocked, so light comes from the ground and the lower half of the sky.
+TEST(BentErrors, meanAngleAndLight) {
+    BentReference reference;
+    for (Plane* plane : {&reference.mean[0], &reference.mean[1], &reference.mean[2], &reference.above}) *plane = Plane(3, 1);
+    Plane visibility(3, 1), truth(3, 1);
+    // Pixel 0: open, up. Pixel 1: blocked above, so that the mean direction is 45 degrees below the normal. Pixel 2: sky.
+    reference.mean[1].values = {0.6f, -0.3f, 0.0f};
+    reference.mean[0].values = {0.0f, 0.3f, 0.0f};
+    reference.above.values = {1.0f, 0.0f, 0.0f};
+    truth.values = {1.0f, 0.5f, 1.0f};
+    visibility.values = {1.0f, 0.5f, 1.0f};
+    const std::vector<glm::vec3> normals = {{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}, exact = {{0, 1, 0}, {1, -1, 0}, {0, 0, 0}};
+    const Mask valid = {1, 1, 1};
+    const BentErrors plain = compareBent(normals, visibility, normals, reference, truth, 0.4f, valid),
+                     bent = compareBent(exact, visibility, normals, reference, truth, 0.4f, valid);
+    EXPECT_EQ(plain.pixels, 2u);
+    EXPECT_NEAR(plain.degrees, 22.5f, 1e-3f);
+    EXPECT_NEAR(bent.degrees, 0.0f, 0.03f);
+    EXPECT_NEAR(bent.normalDegrees, 22.5f, 1e-3f);
+    // E of the normal is (1 + 0.4) / 2 and of 45 degrees below it 0.4 + 0.6 (1 - sqrt 1/2) / 2; the light is 0.5 x 0.4.
+    EXPECT_NEAR(plain.irradiance, 0.5f * (0.5f * 0.7f - 0.2f), 1e-5f);
+    EXPECT_NEAR(plain.bentIrradiance, plain.irradiance, 1e-6f);
+    EXPECT_NEAR(bent.irradiance, plain.irradiance, 1e-6f);
+    EXPECT_NEAR(bent.bentIrradiance, 0.5f * (0.5f * (0.4f + 0.3f * (1.0f - std::sqrt(0.5f))) - 0.2f), 1e-5f);
+    EXPECT_EQ(compareBent(exact, visibility, normals, reference, truth, 0.4f, {1, 0, 0}).pixels, 1u);
 }
 
 }  // namespace

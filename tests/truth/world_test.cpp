@@ -71,6 +71,34 @@ TEST(WorldReference, rightAngledWallMatchesTheClosedForm) {
         }
 }
 
+// At an endless wall a floor sees a quarter sphere, whose cosine-weighted mean direction is (2 / (3 pi), 0, 1/3); a wall sees it too.
+TEST(WorldReference, bentNormalsAtAWallAreAQuarterSphere) {
+    Shapes shapes;
+    shapes.quad({0, 0, 0}, {1e4f, 0, 0}, {0, 0, 1e4f});
+    shapes.quad({0, 0, 0}, {0, 1e4f, 0}, {0, 0, 1e4f});
+    const WorldReference world(shapes.posed());
+    const std::vector<Receiver> receivers = {{{-0.01f, 0, 0}, {0, 1, 0}}, {{0, 0.01f, 0}, {-1, 0, 0}}};
+    const std::vector falloffs{rayFalloff("constant:1000"), rayFalloff("constant:0.001")};
+    WorldOptions options = rays(8192);
+    const Reference plain = world.trace(receivers, falloffs, options);
+    options.bentNormals = true;
+    const Reference reference = world.trace(receivers, falloffs, options);
+    EXPECT_FALSE(bool(plain.channels[0].bent));
+    ASSERT_TRUE(bool(reference.channels[0].bent));
+    for (size_t f = 0; f < 2; ++f) EXPECT_EQ(reference.channels[f].obscurance.values, plain.channels[f].obscurance.values);
+    const float across = float(2.0 / (3.0 * test::kPi)), third = 1.0f / 3.0f;
+    const auto expectMean = [&](size_t f, size_t i, const glm::vec3& mean, float above) {
+        const BentReference& bent = reference.channels[f].bent;
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(bent.mean[axis].values[i], mean[axis], 0.003f) << "falloff " << f << ", receiver " << i << ", axis " << axis;
+        EXPECT_NEAR(bent.above.values[i], above, 0.003f) << "falloff " << f << ", receiver " << i;
+    };
+    expectMean(0, 0, {-across, third, 0}, 0.5f);
+    expectMean(0, 1, {-third, across, 0}, 0.5f);  // what a wall sees of the upper half
+    expectMean(1, 0, {0, 2.0f / 3.0f, 0}, 1.0f);
+    expectMean(1, 1, {-2.0f / 3.0f, 0, 0}, 0.5f);  // half of an open wall's light comes from below
+}
+
 TEST(WorldReference, sphereOverPlaneCoversItsSolidAngle) {
     Shapes shapes;
     shapes.quad({0, 0, 0}, {50, 0, 0}, {0, 50, 0});

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "ao/library.h"
 #include "app/arguments.h"
 #include "app/complaint.h"
 #include "app/content.h"
@@ -115,8 +116,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
             ->delimiter(',');
     auto* check = cli.add_option("--check-gpu-cost", options.checkGpuCost,
         "Compare these costs with a baseline; fail if a pass takes over 3 % more cycles, fits fewer waves, or spills more");
+    bool bentNormals = false;
+    auto* bent =
+        cli.add_flag("--bent-normals", bentNormals, "Count the methods with the passes of their bent normals; those without are left out");
     auto* renew = cli.add_option("--renew-gpu-cost", options.renewGpuCost, "Write that baseline");
     check->excludes(renew);
+    bent->excludes(check)->excludes(renew);
     cli.add_flag("!--no-gpu-cost", options.withGpuCost, "Measure without counting the candidates' cycles on navi21 besides");
 
     cli.option_defaults()->group("Output");
@@ -163,6 +168,13 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     for (const std::string& camera : cameras) what.cameras.push_back(measure::cameraOf(camera));
     what.falloffs = measure::falloffs(falloffs);
     what.candidates = measure::variants(chosen.methods, chosen.presets, chosen.allSets());
+    if (bentNormals) {
+        if (!*gpuCost) throw Complaint("--bent-normals: only with --gpu-cost");
+        std::erase_if(what.candidates, [](const measure::Candidate& candidate) { return !candidate.info().bentNormals; });
+        if (what.candidates.empty())
+            throw Complaint(fmt::format("--bent-normals: none of the chosen methods has them; {} do", ao::bentNormalsFrom()));
+        for (measure::Candidate& candidate : what.candidates) candidate.values.bentNormals = true;
+    }
     for (const std::string& reference : references) {
         if (reference == "world") what.reference.world = true;
         else if (reference == "screen") what.reference.screen = true;

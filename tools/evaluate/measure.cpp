@@ -7,6 +7,7 @@
 
 #include "app/progress.h"
 #include "app/statistics.h"
+#include "render/renderer.h"
 
 namespace obscura::evaluate {
 
@@ -26,7 +27,8 @@ std::vector<Drawn> drawAll(measure::Machine& machine, measure::Shot& shot, const
                 options.falloffs[i / perFalloff].falloff, options.warmUp, options.frames);
             sums[i].push_back(app::percentile(drawing.own, 0.5));
             for (const app::Series& pass : drawing.passes) app::named(passes[i], pass.name).values.push_back(pass.median());
-            if (round == 0) all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), {}, 0.0});
+            if (round == 0)
+                all.push_back({i % perFalloff, i / perFalloff, std::move(drawing.visibility), std::move(drawing.bentNormals), {}, 0.0});
         }
     for (size_t i = 0; i < count; ++i) {
         for (const app::Series& pass : passes[i]) all[i].passes.push_back({pass.name, pass.median()});
@@ -44,6 +46,27 @@ std::vector<truth::RegionMetrics> meanError(const truth::Plane& visibility, cons
             sum += std::fabs(std::clamp(visibility.values[i], 0.0f, 1.0f) - std::clamp(reference.values[i], 0.0f, 1.0f)), ++metrics.pixels;
     metrics.raw.eA = metrics.pixels ? float(sum / double(metrics.pixels)) : 0.0f;
     return {{truth::Region::whole, metrics}};
+}
+
+// Bent normals, and the sample's ambient light with and without them. found: eye space, one per visible pixel; empty: the reference's own.
+truth::BentErrors bentErrors(const truth::CapturedFrame& frame, std::vector<glm::vec3> found, const truth::Plane& visibility,
+    const measure::ShotReference& reference, const truth::Mask& valid) {
+    const glm::mat3 worldFromEye(frame.worldFromEye());
+    const glm::uvec2 size = frame.visible();
+    std::vector<glm::vec3> normals;
+    for (glm::vec3& direction : found) direction = worldFromEye * direction;
+    for (size_t i = 0; found.size() < valid.size(); ++i)
+        found.push_back({reference.bent.mean[0].values[i], reference.bent.mean[1].values[i], reference.bent.mean[2].values[i]});
+    for (uint32_t y = 0; y < size.y; ++y)
+        for (uint32_t x = 0; x < size.x; ++x) {
+            const glm::vec3 eye = frame.eyePosition(x + frame.guard.x, y + frame.guard.y), n = frame.normals[frame.visibleIndex(x, y)];
+            const glm::vec3 towards = frame.view().orthographic > 0.5f ? glm::vec3(0, 0, 1) : -eye;
+            normals.push_back(worldFromEye * (glm::dot(n, towards) < 0.0f ? -n : n));
+        }
+    const auto luminance = [](const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); };
+    const render::Sun sun;
+    return truth::compareBent(
+        found, visibility, normals, reference.bent, reference.visibility, luminance(sun.ground) / luminance(sun.sky), valid);
 }
 
 }  // namespace
@@ -66,6 +89,7 @@ ShotResult measure(measure::Machine& machine, measure::Shot& shot, const Options
     result.references = std::move(references.list);
     result.referencesFromCache = references.fromCache;
     result.seconds.references = references.seconds;
+    result.bent.resize(result.references.size());
     for (const std::string& remark : references.remarks) result.remark += (result.remark.empty() ? "" : "; ") + remark;
 
     double begun = app::now();
@@ -82,7 +106,12 @@ ShotResult measure(measure::Machine& machine, measure::Shot& shot, const Options
             const truth::Plane &visibility = result.drawn[d].visibility, &reference = result.references[r].visibility;
             result.rows.push_back({d, r,
                 options.errorsOnly ? meanError(visibility, reference, regions[truth::Region::whole])
-                                   : truth::compare(visibility, reference, regions)});
+                                   : truth::compare(visibility, reference, regions),
+                {}});
+            if (result.drawn[d].bentNormals.empty() || !result.references[r].bent) continue;
+            const truth::Mask& valid = regions[truth::Region::whole];
+            result.rows.back().bent = bentErrors(shot.frame, result.drawn[d].bentNormals, visibility, result.references[r], valid);
+            result.bent[r] = bentErrors(shot.frame, {}, reference, result.references[r], valid);
         }
     }
     if (result.empty()) {

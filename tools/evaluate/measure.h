@@ -4,7 +4,7 @@
 #include "measure/draw.h"
 #include "measure/references.h"
 #include "options.h"
-#include "truth/metrics.h"
+#include "truth/bent_normals.h"
 
 namespace obscura::evaluate {
 
@@ -13,8 +13,9 @@ struct Drawn {
     size_t candidate = 0;  // of Options::candidates
     size_t falloff = 0;    // of Options::falloffs
     truth::Plane visibility;
-    std::vector<gpu::PassTime> passes;  // the method's own passes, medians in milliseconds
-    double milliseconds = 0.0;          // sum of the passes, median over rounds
+    std::vector<glm::vec3> bentNormals;  // of measure::Drawing
+    std::vector<gpu::PassTime> passes;   // the method's own passes, medians in milliseconds
+    double milliseconds = 0.0;           // sum of the passes, median over rounds
 };
 
 // One line of the tables.
@@ -22,6 +23,7 @@ struct Row {
     size_t drawn = 0;                           // of ShotResult::drawn
     size_t reference = 0;                       // of ShotResult::references
     std::vector<truth::RegionMetrics> regions;  // whole first
+    truth::BentErrors bent;                     // without pixels: not asked for, or a method or reference has none
     const truth::Metrics& whole() const { return regions.front().metrics; }
 };
 
@@ -36,6 +38,7 @@ struct ShotResult {
     glm::uvec2 size{0}, guard{0};  // visible part, guard band
     uint32_t every = 1;            // RayChoice::every
     std::vector<measure::ShotReference> references;
+    std::vector<truth::BentErrors> bent;  // by reference: of its own visibility and mean directions; without pixels: not asked for
     std::vector<Drawn> drawn;
     std::vector<Row> rows;  // by reference, falloff, candidate
     Seconds seconds;

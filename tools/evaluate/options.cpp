@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "ao/library.h"
 #include "app/arguments.h"
 #include "app/complaint.h"
 #include "app/content.h"
@@ -144,6 +145,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                       ->capture_default_str();
     cli.add_flag("--no-cache", noCache, "Trace references again and do not cache them (default: cached in the user's cache folder)");
 
+    cli.add_flag("--bent-normals", options.bentNormals,
+        "Also measure bent normals, of the methods that have them: mean angle to the world reference's mean unblocked direction, and error "
+        "of the sample's ambient light with the normal and with the bent normal; --out gets their pictures");
+
     cli.option_defaults()->group("Output");
     cli.add_option("--json", options.json, "File of one object per method, preset, falloff and reference");
     cli.add_option("--out", options.out,
@@ -211,6 +216,14 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (!file->empty() && !file->has_parent_path()) *file = options.out / *file;
     options.rays.cache = !noCache;
     if (!noCache) options.voxels.cache = scene::cacheFolder();
+    if (options.bentNormals) {
+        bool any = false;
+        for (measure::Candidate& candidate : options.candidates) any |= candidate.values.bentNormals = candidate.info().bentNormals;
+        if (!any) throw Complaint(fmt::format("--bent-normals: none of the chosen methods has them; {} do", ao::bentNormalsFrom()));
+        if (!options.reference.world) throw Complaint("--bent-normals: only --reference world has directions to compare with");
+        if (options.job != Job::evaluate) throw Complaint("--bent-normals: not for pages and baselines");
+        options.rays.bentNormals = true;
+    }
     expectTogether(options, *scene || *animation || *timeOption || *sizeOption || *guard || *masked);
     return options;
 }

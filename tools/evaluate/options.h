@@ -9,7 +9,8 @@ enum class Job { evaluate, gallery, checkBaseline, renewBaseline };
 
 struct Options : measure::Measurement {
     Job job = Job::evaluate;
-    bool errorsOnly = false;  // eA alone, without regions and perceptual metrics; for baselines
+    bool bentNormals = false;  // of methods that have them: errors of direction and of the light taken from them, and pictures
+    bool errorsOnly = false;   // eA alone, without regions and perceptual metrics; for baselines
     // Output.
     std::filesystem::path json, out, page, captureOut, baseline;
 };

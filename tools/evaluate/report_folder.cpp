@@ -66,6 +66,8 @@ void writeFolder(const std::vector<ShotResult>& shots, const Options& options, c
                 "{}.{}.{}", stem.string(), options.candidates[drawn.candidate].fileName(), options.falloffs[drawn.falloff].fileName());
             truth::writeExr(name + ".visibility.exr", one("Y", drawn.visibility));
             app::writePng(name + ".visibility.png", measure::greyPicture(drawn.visibility));
+            if (!drawn.bentNormals.empty())
+                app::writePng(name + ".bent.png", measure::directionPicture(drawn.bentNormals, shot.size.x, shot.size.y));
         }
         for (const Row& row : shot.rows) {
             const Drawn& drawn = shot.drawn[row.drawn];

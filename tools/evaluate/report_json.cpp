@@ -50,6 +50,16 @@ Json rowJson(const ShotResult& shot, const Row& row, const Options& options, con
     putMetrics(json, row.whole());
     for (size_t i = 1; i < row.regions.size(); ++i)
         putMetrics(json["regions"][truth::kRegionNames[size_t(row.regions[i].region)]], row.regions[i].metrics);
+    if (row.bent.pixels) {
+        json["bentNormals"]["pixels"] = row.bent.pixels;
+        json["bentNormals"]["degrees"] = app::digits(row.bent.degrees);
+        json["bentNormals"]["normalDegrees"] = app::digits(row.bent.normalDegrees);
+        json["bentNormals"]["irradianceError"] = app::digits(row.bent.irradiance);
+        json["bentNormals"]["irradianceErrorBent"] = app::digits(row.bent.bentIrradiance);
+        const truth::BentErrors& least = shot.bent[row.reference];
+        json["bentNormals"]["reference"] = {
+            {"irradianceError", app::digits(least.irradiance)}, {"irradianceErrorBent", app::digits(least.bentIrradiance)}};
+    }
     json["milliseconds"]["all"] = app::digits(drawn.milliseconds);
     json["milliseconds"]["passes"] = Json::object();
     for (const gpu::PassTime& pass : drawn.passes) json["milliseconds"]["passes"][pass.name] = app::digits(pass.milliseconds);

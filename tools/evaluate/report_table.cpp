@@ -47,6 +47,22 @@ std::string referenceLines(const ShotResult& shot, const char* bullet) {
     return text;
 }
 
+// Of rows that have bent normals, one line each; empty if there is none.
+std::string bentLines(const ShotResult& shot, const Options& options) {
+    std::string text;
+    for (const Row& row : shot.rows)
+        if (row.bent.pixels)
+            text += fmt::format("| {} | {} | {:.2f} | {:.4f} | {:.4f} |\n", options.candidates[shot.drawn[row.drawn].candidate].label(),
+                shot.references[row.reference].falloff, row.bent.degrees, row.bent.irradiance, row.bent.bentIrradiance);
+    for (size_t r = 0; r < shot.references.size(); ++r)
+        if (shot.bent[r].pixels)
+            text += fmt::format("| normals alone | {} | {:.2f} | | |\n| the reference itself | {} | 0 | {:.4f} | {:.4f} |\n",
+                shot.references[r].falloff, shot.bent[r].normalDegrees, shot.references[r].falloff, shot.bent[r].irradiance,
+                shot.bent[r].bentIrradiance);
+    return text.empty() ? text
+                        : "| bent normals | falloff | degrees | light error, normal | light error, bent |\n|---|---|--:|--:|--:|\n" + text;
+}
+
 }  // namespace
 
 std::string markdown(const std::vector<ShotResult>& shots, const Options& options, const About& about) {
@@ -87,6 +103,7 @@ std::string markdown(const std::vector<ShotResult>& shots, const Options& option
                     candidate.preset, shot.references[row.reference].falloff, shot.references[row.reference].kind,
                     truth::kRegionNames[size_t(row.regions[i].region)], m.pixels, n.eA, n.e5, n.bias, n.rmse, n.p99, perceptual(m, m.ssim));
             }
+        if (const std::string bent = bentLines(shot, options); !bent.empty()) text += "\n" + bent;
         text += "\n| method | preset | falloff | pass | ms |\n|---|---|---|---|--:|\n";
         for (const Drawn& drawn : shot.drawn) {
             const measure::Candidate& candidate = options.candidates[drawn.candidate];
@@ -122,6 +139,7 @@ std::string textTable(const std::vector<ShotResult>& shots, const Options& optio
                 options.candidates[drawn.candidate].label(), name, reference.falloff, falloff, reference.kind, kind, n.eA, n.e5, n.bias,
                 n.rmse, n.p99, perceptual(m, m.ssim), perceptual(m, m.flipMean), drawn.milliseconds);
         }
+        text += bentLines(shot, options);
         text += referenceLines(shot, "  ") + "  " + secondsLine(shot) + "\n\n";
     }
     return text + fmt::format("{}; times are medians of {} frames, the method's own passes\n", about.device, about.frames);

@@ -60,6 +60,7 @@ Workload workloadOf(gpu::Device& device, const gpu::ShaderLibrary& shaders, cons
     if (!added.visibility) throw app::Complaint(fmt::format("{}: its frame is refused", values.info().id), app::kFailed);
 
     graph.output(added.visibility);
+    if (added.bentNormals) graph.output(added.bentNormals);
     if (!graph.resolve()) throw app::Complaint(fmt::format("{}: its passes contradict their shaders", values.info().id), app::kFailed);
     Workload load{width, height, {}};
     for (const graph::Plan::Step& step : graph::plan(graph.recording()).steps) {

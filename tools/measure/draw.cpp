@@ -31,8 +31,12 @@ Drawing draw(Machine& machine, Shot& shot, const Candidate& candidate, const ao:
     constexpr uint32_t kGathered = 16;
     const bool gathers = (candidate.info().needs & ao::kMotion) || (candidate.info().needs && candidate.values["temporal"] > 0.0f);
     const Machine::Ran ran = machine.run(gathers ? std::max(warmUp, kGathered) : warmUp, frames,
-        [&](graph::Graph& graph, uint32_t index) { return std::vector{shot.add(graph, candidate, falloff, index)}; });
-    Drawing drawing{planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, {}, {}, ran.bytes};
+        [&](graph::Graph& graph, uint32_t index) { return shot.add(graph, candidate, falloff, index); });
+    Drawing drawing{planeOf(ran.images[0], shot.frame.visible(), candidate.label()), {}, {}, {}, {}, ran.bytes};
+    for (size_t i = 0; ran.images.size() > 1 && 4 * i < ran.images[1].size(); ++i) {
+        const auto at = [&](size_t axis) { return float(int8_t(ran.images[1][4 * i + axis])) / 127.0f; };
+        drawing.bentNormals.push_back({at(0), at(1), at(2)});
+    }
     const auto drawsTheFrame = [&](const std::string& pass) {
         return std::find(shot.framePasses.begin(), shot.framePasses.end(), pass) != shot.framePasses.end();
     };

@@ -41,6 +41,15 @@ app::Picture greyPicture(const truth::Plane& visibility) {
     });
 }
 
+app::Picture directionPicture(std::span<const glm::vec3> directions, uint32_t width, uint32_t height) {
+    app::Picture picture{width, height, {}};
+    for (const glm::vec3& d : directions) {
+        const glm::vec3 c = 127.5f + 127.5f * d;
+        picture.rgba.insert(picture.rgba.end(), {byteOf(c.x), byteOf(c.y), byteOf(c.z), 255});
+    }
+    return picture;
+}
+
 app::Picture errorPicture(const truth::Plane& visibility, const truth::Plane& reference) {
     assert(visibility.pixels() == reference.pixels());
     return paint(visibility, [&](size_t i) { return errorColour(visibility.values[i] - reference.values[i]); });

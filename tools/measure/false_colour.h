@@ -1,6 +1,10 @@
 // False colours of errors, and greys of visibility.
 #pragma once
 
+#include <span>
+
+#include <glm/glm.hpp>
+
 #include "app/picture.h"
 #include "truth/picture.h"
 
@@ -16,6 +20,7 @@ struct Rgb {
 Rgb errorColour(float error, float range = kErrorRange);
 
 app::Picture greyPicture(const truth::Plane& visibility);  // byte = 255 * value, without sRGB encoding
+app::Picture directionPicture(std::span<const glm::vec3> directions, uint32_t width, uint32_t height);  // byte = 127.5 + 127.5 component
 app::Picture errorPicture(const truth::Plane& visibility, const truth::Plane& reference);
 
 }  // namespace obscura::measure

@@ -29,7 +29,8 @@ struct RayChoice {
     float targetError = 0.005f;  // standard error at which tracing a pixel stops; 0: always `rays`
     uint32_t seed = 1;
     bool cache = true;
-    uint32_t every = 1;  // step between evaluated pixels in rows and columns, px; no others are traced
+    bool bentNormals = false;  // also the mean unblocked direction, of world references
+    uint32_t every = 1;        // step between evaluated pixels in rows and columns, px; no others are traced
 };
 
 // References: rendered ones, or a file.

@@ -43,7 +43,7 @@ float mean(const truth::Plane& plane) {
 void append(References& all, const std::string& kind, const truth::Reference& made, const std::vector<FalloffChoice>& falloffs) {
     for (size_t i = 0; i < falloffs.size(); ++i)
         all.list.push_back({kind, falloffs[i].text, kind + "." + falloffs[i].fileName(), open(made.channels[i].obscurance),
-            made.meanError(i), mean(made.rays)});
+            made.meanError(i), mean(made.rays), made.channels[i].bent});
     all.fromCache = all.fromCache && made.fromCache;
 }
 
@@ -82,8 +82,8 @@ void readStored(References& all, const Shot& shot, const Measurement& what) {
             if (const float a = obscurance.values[i]; !(a >= -0.001f && a <= 1.001f))
                 throw Complaint(fmt::format(
                     "{}: {} is {} at pixel ({}, {}); obscurance must be in [0, 1]", file, channel, a, i % visible.x, i / visible.x));
-        all.list.push_back(
-            {scene::utf8(what.reference.file.filename().string()) + ":" + channel, falloff.text, channel, open(obscurance), 0.0f, 0.0f});
+        all.list.push_back({scene::utf8(what.reference.file.filename().string()) + ":" + channel, falloff.text, channel, open(obscurance),
+            0.0f, 0.0f, {}});
     }
 }
 
@@ -94,6 +94,7 @@ truth::Reference traceWorld(
     geometry.skipMasked = shot.skipMasked;
     truth::WorldOptions rays;
     setRays(rays, what.rays);
+    rays.bentNormals = what.rays.bentNormals;
     return cache.get(truth::worldKey(primitives, geometry, shot.frame, falloffs, rays), [&] {
         Bar bar("tracing the world reference of " + shot.scene);
         rays.progress = bar.callback();

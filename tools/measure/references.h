@@ -7,12 +7,13 @@
 namespace obscura::measure {
 
 struct ShotReference {
-    std::string kind;         // "world", "screen", or "FILE.exr:CHANNEL"
-    std::string falloff;      // FalloffChoice::text
-    std::string fileName;     // "world.quadratic_2"
-    truth::Plane visibility;  // visible part
-    float error = 0.0f;       // mean standard error of a pixel; 0 if read from a file
-    float rays = 0.0f;        // mean rays per pixel; 0 if read from a file
+    std::string kind;           // "world", "screen", or "FILE.exr:CHANNEL"
+    std::string falloff;        // FalloffChoice::text
+    std::string fileName;       // "world.quadratic_2"
+    truth::Plane visibility;    // visible part
+    float error = 0.0f;         // mean standard error of a pixel; 0 if read from a file
+    float rays = 0.0f;          // mean rays per pixel; 0 if read from a file
+    truth::BentReference bent;  // of world references, with RayChoice::bentNormals
 };
 
 struct References {

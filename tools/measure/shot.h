@@ -24,8 +24,9 @@ struct Shot {
     std::shared_ptr<const scene::World> world;
     bool skipMasked = false;
 
-    // Adds a method's passes to a graph; returns visibility (R16F, visible size). `index` counts frames since the last reset.
-    std::function<graph::ImageId(graph::Graph&, const Candidate&, const ao::Falloff&, uint32_t index)> add;
+    // Adds a method's passes to a graph; returns visibility (R16F, visible size) and, if the candidate asks for them, bent normals
+    // (R8G8B8A8_SNORM). `index` counts frames since the last reset.
+    std::function<std::vector<graph::ImageId>(graph::Graph&, const Candidate&, const ao::Falloff&, uint32_t index)> add;
     // The library that `add` uses.
     ao::Library* library = nullptr;
     // Passes of `add` that draw the frame for every method; they do not count as the method's time.

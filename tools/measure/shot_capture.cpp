@@ -139,7 +139,8 @@ void captureShot(Machine& machine, const Measurement& what, const TakeShot& take
         const ao::Sources sources{
             import(graph, "captured depth", images->depth), import(graph, "captured normals", images->normals), {}, true};
         if (index == 0) library.discardHistory();
-        return library.add(graph, lens, sources, falloff, candidate.values).visibility;
+        const ao::Library::Added drawn = library.add(graph, lens, sources, falloff, candidate.values);
+        return candidate.values.bentNormals ? std::vector{drawn.visibility, drawn.bentNormals} : std::vector{drawn.visibility};
     };
     shot.seconds = (app::now() - begun) * 1e-3;
     take(shot);

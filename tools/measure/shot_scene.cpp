@@ -147,7 +147,8 @@ std::optional<Shot> LoadedScene::shot(const Measurement& what, const CameraChoic
         frame.falloff = falloff;
         frame.voxels = candidate.voxels.over(frame.voxels);
         frame.cut = index == 0;
-        return renderer.add(graph, *world, frame).visibility;
+        const render::Outputs drawn = renderer.add(graph, *world, frame);
+        return candidate.values.bentNormals ? std::vector{drawn.visibility, drawn.bentNormals} : std::vector{drawn.visibility};
     };
     shot.seconds = (app::now() - begun) * 1e-3 + m_seconds;
     m_seconds = 0.0;

@@ -4,6 +4,14 @@
 #include "shared/falloff.h"
 OBSCURA_SHARED_BEGIN
 
+struct BentNormals {  // bent_normals.comp
+    uint scale;    // picture pixels per pixel of the raw bent normals, each way
+    uint middle;   // of those, the one that it stands for, each way
+    float covers;  // half the window's width, pixels of the raw bent normals
+    uint taps;     // pixels read each way
+};
+OBSCURA_SHARED_SIZE(BentNormals, 16);
+
 struct Crop {  // crop.comp
     ivec2 origin, size;  // px
     int stride;    // px of the source per px of the part

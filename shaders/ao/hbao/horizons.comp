@@ -1,8 +1,11 @@
 // HBAO, one invocation per visible pixel, directions x steps nearest-texel samples. Formulas: runtime/ao/methods/hbao/hbao.cpp.
-// In: linear depth, packed normals, guard band included; with DEPTH_LAYERS, packed layers. Out: visibility, R16F.
+// In: linear depth, packed normals, guard band included; with DEPTH_LAYERS, packed layers. Out: visibility, R16F; with BENT also raw bent
+// normals.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant DEPTH_LAYERS
+#pragma variant BENT
+#pragma variant DEPTH_LAYERS,BENT
 #include "ao/common/pixel_shape.glsl"
 #include "ao/common/tile.glsl"
 #include "ao/hbao/constants.h"
@@ -19,6 +22,13 @@ layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, r16f) uniform writeonly image2D visibility;
 #ifdef DEPTH_LAYERS
 layout(set = 0, binding = 4, rgba32ui) uniform readonly uimage2D packedLayers;
+#define BENT_BINDING 5
+#else
+#define BENT_BINDING 4
+#endif
+#ifdef BENT
+#include "ao/common/bent_normals.glsl"
+layout(set = 0, binding = BENT_BINDING, rg32ui) uniform writeonly uimage2D bentNormals;
 #endif
 layout(push_constant) uniform Block { HbaoHorizons constants; };
 
@@ -51,6 +61,9 @@ struct Arc {
     uint covered;
     vec3 previous;        // the previous sample's front, from the pixel
     float previousSine;
+#ifdef BENT
+    vec2 normal, bent;    // the normal along v and the direction; sum over blocked intervals of w (n.w), along the same
+#endif
 };
 float placeInArc(Arc arc, float sine) { return clamp((sine - arc.start) * arc.scale, 0.0, 32.0); }
 // Number of intervals that a layer newly covers, times its falloff. It covers from its front to its back, or down to `down`, the previous
@@ -59,6 +72,12 @@ float coverLayer(inout Arc arc, FalloffBlock rho, vec3 d, vec3 ray, float size, 
     float back = min(backCosine(d, ray, size, v), down);
     uint bits = counts ? bitsBetween(placeInArc(arc, back), placeInArc(arc, sine)) & ~arc.covered : 0u;
     arc.covered |= bits;
+#ifdef BENT
+    // In the sine the measure of w (n.w) is even: sin a da = d cos a, a from v.
+    float middle = clamp(0.5 * (max(back, arc.start) + max(sine, arc.start)), -1.0, 1.0), other = sqrt(max(1.0 - middle * middle, 0.0));
+    float weight = float(bitCount(bits)) * falloff(rho, layerDistance(d, ray, size));
+    arc.bent += weight * max(arc.normal.x * middle + arc.normal.y * other, 0.0) * vec2(middle, other);
+#endif
     return float(bitCount(bits)) * falloff(rho, layerDistance(d, ray, size));
 }
 #endif
@@ -73,6 +92,9 @@ void main() {
     float z = imageLoad(depth, texel).x;
     if (isSky(view, z)) {
         imageStore(visibility, p, vec4(1.0));
+#ifdef BENT
+        imageStore(bentNormals, p, rawBent(z, vec3(0.0)));
+#endif
         return;
     }
     vec2 pixel = vec2(texel) + 0.5;
@@ -96,6 +118,9 @@ void main() {
     ivec2 last = ivec2(view.size) - 1;
     vec2 size = vec2(view.size);
 
+#ifdef BENT
+    vec3 bentBlocked = vec3(0.0), bentWhole = vec3(0.0);
+#endif
     float blocked = 0.0;
     vec2 shape = pixelShape(view);
     uint shares = constants.side * constants.side;
@@ -105,8 +130,18 @@ void main() {
         float tangent = tangentSine(view, here, n, v, pixel, direction);
         // sin(t + bias)
         float horizon = min(tangent * cosBias + sqrt(max(1.0 - tangent * tangent, 0.0)) * sinBias, 1.0);
+#ifdef BENT
+        vec3 across = eyePosition(view, pixel + direction, z) - here;
+        across = normalize(across - dot(across, v) * v);
+        float nv = dot(n, v), no = dot(n, across);
+        vec2 bentLow = bentArc(nv, no, -no * inversesqrt(max(nv * nv + no * no, 1e-12))), bent = vec2(0.0);
+#endif
 #ifdef DEPTH_LAYERS
-        Arc arc = Arc(horizon, 32.0 / max(1.0 - horizon, 1e-4), 0u, vec3(0.0), 1.0);
+        Arc arc = Arc(horizon, 32.0 / max(1.0 - horizon, 1e-4), 0u, vec3(0.0), 1.0
+#ifdef BENT
+            , vec2(nv, no), vec2(0.0)
+#endif
+        );
         float covered = 0.0;
 #endif
         for (uint i = 0u;;) {
@@ -130,13 +165,27 @@ void main() {
             float gain = inside && dot(d, n) * inverse >= leastRise ? max(sine - horizon, 0.0) : 0.0;
             blocked += falloff(rho, distance2 * inverse) * gain;
             horizon += gain;
+#ifdef BENT
+            bent += falloff(rho, distance2 * inverse) * (bentArc(nv, no, horizon - gain) - bentArc(nv, no, horizon));
+#endif
 #endif
             if (++i >= constants.steps) break;
         }
 #ifdef DEPTH_LAYERS
         blocked += covered / arc.scale;
 #endif
+#ifdef BENT
+#ifdef DEPTH_LAYERS
+        bent = 2.0 * arc.bent / arc.scale;
+#endif
+        bentBlocked += bent.x * v + bent.y * across;
+        bentWhole += bentLow.x * v + bentLow.y * across;
+#endif
         if ((k += shares) >= constants.directions) break;
     }
+#ifdef BENT
+    float each = 1.0 / float(constants.directions / shares);
+    imageStore(bentNormals, p, rawBent(z, blockedBent(each * bentBlocked, each * bentWhole, n, clamp(1.0 - each * blocked, 0.0, 1.0))));
+#endif
     imageStore(visibility, p, vec4(clamp(1.0 - blocked / float(constants.directions / shares), 0.0, 1.0)));
 }

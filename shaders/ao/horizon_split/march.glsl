@@ -64,6 +64,14 @@ Steps stepsOf(uint count, float radius, float spacing, float thickness) {
 }
 float metresAt(Steps walk, float t) { return walk.radius * t * mix(1.0, t, walk.spacing); }
 
+#ifdef BENT
+#include "ao/common/bent_normals.glsl"
+// What directions that miss the whole of the hemisphere take off the normal's part: with N tangents t,
+//     2/3 n - 2/N sum of 1/3 (t + n) = -2/(3 N) sum of t
+// A part o of the hemisphere that is blocked, times this, belongs to its mean direction (blockedBent()).
+vec3 missed(vec3 tangents, float count) { return tangents * (-kWholeBent / count); }
+#endif
+
 // Texel of a word: H^2 of four directions, 8 bits each. Words of a pixel are side by side and below each other in one image; words per row:
 // wordColumns() of horizon_split.cpp.
 ivec2 wordAt(ivec2 p, uint word, uvec2 visible) {

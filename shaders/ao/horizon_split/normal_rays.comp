@@ -1,6 +1,8 @@
 // Normal rays through the depth buffer; surfaces have a constant thickness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variant BENT
+#define BENT_BINDING 7
 #include "ao/horizon_split/march.glsl"
 struct Space {
     Lens lens;

@@ -1,5 +1,6 @@
 // Normal rays: occlusion above the horizon [Dimitrov, sec. 3.3]. The rays of a direction have the weight 1 - H^2 of that direction.
 // In: linear depth, packed normals, 1 - O_T, H^2 per direction. Out: 1 - O_N, and visibility of both terms.
+// With BENT, and BENT_BINDING defined by the includer: adds what rays find blocked to the raw bent normals of what is below the horizon.
 // The includer provides the space that rays are traced in: it defines `struct Space` before including this, and
 //     Space spaceOf(View view, Origin origin);                          state for a pixel's rays
 //     vec3 towards(Space space, vec3 d);                                converts an eye-space direction to that space
@@ -16,6 +17,11 @@ layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D horizons;
 layout(set = 0, binding = 5, r16f) uniform writeonly image2D aboveHorizon;
 layout(set = 0, binding = 6, r16f) uniform writeonly image2D visibility;
 
+#ifdef BENT
+layout(set = 0, binding = BENT_BINDING, rg32ui) uniform readonly uimage2D bentBelow;
+layout(set = 0, binding = BENT_BINDING + 1, rg32ui) uniform writeonly uimage2D bentNormals;
+#endif
+
 const float kFree = 3e38;
 Space spaceOf(View view, Origin origin);
 vec3 towards(Space space, vec3 d);
@@ -31,6 +37,9 @@ void main() {
     if (isSky(view, z)) {
         imageStore(aboveHorizon, p, vec4(1.0));
         imageStore(visibility, p, vec4(1.0));
+#ifdef BENT
+        imageStore(bentNormals, p, rawBent(z, vec3(0.0)));
+#endif
         return;
     }
     Origin origin = originAt(view, texel, z, unpackNormal(imageLoad(normals, texel).x), constants.offset);
@@ -42,6 +51,9 @@ void main() {
     vec2 direction = share.first;
     uint count = share.count;
 
+#ifdef BENT
+    vec3 bent = vec3(0.0), tangents = vec3(0.0);
+#endif
     float occlusion = 0.0;
     uint word = 0u;
     for (uint i = 0u; i < count; ++i) {
@@ -56,11 +68,25 @@ void main() {
         for (uint k = 0u; k < constants.rays; ++k) {
             float sine2 = horizon2 + (float(k) + elevation) * weight;
             vec3 ray = sqrt(max(1.0 - sine2, 0.0)) * along + sqrt(sine2) * up;
+#ifdef BENT
+            float before = occlusion;
+#endif
             occlusion += weight * falloff(rho, blockedAt(space, ray, walk, first));
+#ifdef BENT
+            vec3 t = direction.x * origin.b + direction.y * origin.c;
+            bent += (occlusion - before) * (sqrt(max(1.0 - sine2, 0.0)) * t + sqrt(sine2) * origin.n);
+#endif
         }
+#ifdef BENT
+        tangents += direction.x * origin.b + direction.y * origin.c;
+#endif
         direction = share.next * direction;
     }
     occlusion /= float(count);
+#ifdef BENT
+    bent = bent / float(count) + clamp(occlusion, 0.0, 1.0) * missed(tangents, float(count));
+    imageStore(bentNormals, p, rawBent(z, unpackBent(imageLoad(bentBelow, p).y) + bent));
+#endif
     imageStore(aboveHorizon, p, vec4(clamp(1.0 - occlusion, 0.0, 1.0)));
     imageStore(visibility, p, vec4(clamp(imageLoad(belowHorizon, p).x - occlusion, 0.0, 1.0)));
 }

@@ -1,6 +1,8 @@
 // Normal rays through depth layers; surfaces have their rendered thickness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variant BENT
+#define BENT_BINDING 8
 #include "ao/common/packed_layers.glsl"
 #include "ao/horizon_split/march.glsl"
 struct Space {

@@ -2,6 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant VOLUME_NANOVDB
+#pragma variant BENT
+#pragma variant VOLUME_NANOVDB,BENT
+#define BENT_BINDING 9
 #define VOLUME_BINDING 8
 #include "ao/common/volume_rays.glsl"
 #include "ao/horizon_split/march.glsl"

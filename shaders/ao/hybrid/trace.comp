@@ -1,15 +1,21 @@
 // Hybrid obscurance, first pass [Reinbothe 2009, eq. 4]: a cone of rays through the volume, one invocation per map pixel.
-// In: volume, linear depth, packed normals. Out: visibility, depth and normal of the map's receivers. Formulas:
-// runtime/ao/methods/hybrid/hybrid.cpp.
+// In: volume, linear depth, packed normals. Out: visibility, depth and normal of the map's receivers; with BENT also raw bent normals.
+// Formulas: runtime/ao/methods/hybrid/hybrid.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant VOLUME_NANOVDB
+#pragma variant BENT
+#pragma variant VOLUME_NANOVDB,BENT
 #define VOLUME_BINDING 2
 #include "ao/common/map.glsl"
 #include "ao/common/tile.glsl"
 #include "ao/common/volume_rays.glsl"
 #include "ao/hybrid/constants.h"
 #include "shared/falloff.h"
+#ifdef BENT
+#include "ao/common/bent_normals.glsl"
+layout(set = 0, binding = 7, rg32ui) uniform writeonly uimage2D bentNormals;
+#endif
 layout(push_constant) uniform Block { HybridTrace constants; };
 
 const float kTwoPi = 6.28318531, kGolden = -2.39996323, kShift = 0.754877666;
@@ -24,7 +30,12 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, constants.size))) return;
     vec3 here, n;
-    if (!receive(view, p, int(constants.scale), here, n)) return;
+    if (!receive(view, p, int(constants.scale), here, n)) {
+#ifdef BENT
+        imageStore(bentNormals, p, rawBent(view.skyDepth, vec3(0.0)));
+#endif
+        return;
+    }
 
     // From here on all positions are in cells, so that a step is one vector addition.
     vec3 normal = cellsAlong(volume, n) * volume.centre.w, receiver = cellOf(volume, here);
@@ -47,6 +58,10 @@ void main() {
     bool outside = hitWeight(volume, receiver) == 0.0;
     bool originOccupied = !outside && occupiedAt(volume, rays.receiver + rays.lift, rays.level);
     float originBlocked = originOccupied ? 0.5 : 0.0, lift = constants.offset * rays.metres;
+#ifdef BENT
+    vec3 bentBlocked = vec3(0.0), bentWhole = vec3(0.0);  // cell axes
+    float weights = 0.0;
+#endif
     float blocked = 0.0, total = 0.0, shift = fract(xi.z + kShift * float(share)), shiftStep = kShift * float(shares);
     for (uint i = share; i < rayCount; i += shares) {
         float c = mix(coneCosine, 1.0, (float(i) + xi.x) / float(rayCount));
@@ -68,6 +83,11 @@ void main() {
             : 0.0;
         blocked += c * mix(far, falloff(rho, lift * c), originBlocked);
         total += c;
+#ifdef BENT
+        bentBlocked += c * mix(far, falloff(rho, lift * c), originBlocked) * ray;
+        bentWhole += c * ray;
+        weights += c;
+#endif
         azimuthVector =
             vec2(azimuthVector.x * rotation.x - azimuthVector.y * rotation.y, azimuthVector.x * rotation.y + azimuthVector.y * rotation.x);
         shift = fract(shift + shiftStep);
@@ -75,5 +95,9 @@ void main() {
     // Shares have different sums of cosines: dividing by their mean makes the shares average to the whole. A single share's visibility
     // may be below 0.
     if (constants.side > 1u) total = float(rayCount / shares) * mix(coneCosine, 1.0, (0.5 * float(rayCount - 1u) + xi.x) / float(rayCount));
+#ifdef BENT
+    vec3 bent = blockedBent(eyeAlong(volume, bentBlocked) / weights, eyeAlong(volume, bentWhole) / weights, n, 1.0 - blocked / weights);
+    imageStore(bentNormals, p, rawBent(-here.z, bent));
+#endif
     imageStore(map, p, vec4(min(1.0 - blocked / total, 1.0)));
 }

@@ -1,11 +1,14 @@
 // Segments of occlusion around each pixel: in each slice every sample covers the angles between the front and the back of what it hits,
 // each bit once, with the falloff at its nearest point. Formulas: runtime/ao/methods/layered/layered.cpp.
 // In: normals and packed layers (one per texel; TWO_LAYERS: two; NO_LAYERS: depth, with an assumed thickness), guard band included.
-// Out: shares (shares.glsl) of each image pixel or map pixel.
+// Out: shares (shares.glsl) of each image pixel or map pixel; with BENT also their raw bent normals.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant NO_LAYERS
 #pragma variant TWO_LAYERS
+#pragma variant BENT
+#pragma variant NO_LAYERS,BENT
+#pragma variant TWO_LAYERS,BENT
 #include "ao/common/packed_layers.glsl"
 #include "ao/common/tile.glsl"
 #include "ao/layered/constants.h"
@@ -17,6 +20,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std140) uniform ViewBlock { View viewBlock; };
 layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D normals;
 layout(set = 0, binding = 3, rg32ui) uniform writeonly uimage2D shares;
+#ifdef BENT
+layout(set = 0, binding = 4, rg32ui) uniform writeonly uimage2D bentNormals;
+#endif
 layout(push_constant) uniform Block { LayeredSegments constants; };
 
 // Layers of a pixel, and the texel that is a copy of it.
@@ -55,12 +61,18 @@ void main() {
     ivec2 texel = pixelOfMap(p, constants.map, ivec2(view.visible)) + ivec2(view.guard);
     if (isSky(view, depthAt(texel))) {
         imageStore(shares, p, packShare(depthAt(texel), 0.0, 1.0));
+#ifdef BENT
+        imageStore(bentNormals, p, rawBent(depthAt(texel), vec3(0.0)));
+#endif
         return;
     }
     vec2 noise = fract(tileNoise(uvec2(p), constants.side) + frameShift(view).xy);
     bool orthographic = view.orthographic > 0.5;
     ivec2 padded = paddedSize(view.size);
     float sliceCount = float(constants.slices), stratum = 1.0 / float(constants.steps), blocked = 0.0, whole = 0.0;
+#ifdef BENT
+    vec3 bentBlocked = vec3(0.0), bentWhole = vec3(0.0);
+#endif
     // Loops are post-tested: lavapipe runs a pre-tested loop once more with every lane masked.
     for (uint k = 0u;;) {
         // The receiver is computed for each slice again, because the registers that it would take cost more.
@@ -109,9 +121,20 @@ void main() {
             }
             blocked += side.blocked * own;
             whole += own;
+#ifdef BENT
+            vec2 bent = side.bent * own, all = 0.5 * bentArc(nv, sign * no, -sign * sine);
+            bentBlocked += bent.x * v + bent.y * sign * od;
+            bentWhole += all.x * v + all.y * sign * od;
+#endif
             if (++halfIndex >= 2u) break;
         }
         if (++k >= constants.slices) break;
     }
+#ifdef BENT
+    vec3 eye = eyePosition(view, vec2(texel) + 0.5, depthAt(texel)), normal = unpackNormal(imageLoad(normals, texel).x);
+    normal = dot(normal, towardsEye(view, eye)) < 0.0 ? -normal : normal;
+    vec3 result = blockedBent(bentBlocked / (32.0 * sliceCount), bentWhole / sliceCount, normal, 1.0 - blocked / max(32.0 * whole, 1e-6));
+    imageStore(bentNormals, p, rawBent(depthAt(texel), result));
+#endif
     imageStore(shares, p, packShare(depthAt(texel), blocked / (32.0 * sliceCount), whole / sliceCount));
 }

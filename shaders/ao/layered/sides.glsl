@@ -2,6 +2,9 @@
 // towards the eye, b the one along the slice's direction across it; metres.
 #ifndef OBSCURA_SIDES_GLSL
 #define OBSCURA_SIDES_GLSL
+#ifdef BENT
+#include "ao/common/bent_normals.glsl"
+#endif
 #include "ao/common/packed_layers.glsl"
 #include "shared/falloff.h"
 #include "shared/view.h"
@@ -61,10 +64,18 @@ struct Side {
     float f, at;     // of the sample before: depth relative to the receiver, distance in the image, px; at first, of the receiver
     float place;     // of its front, 32nds
     float distance;  // metres
+#ifdef BENT
+    vec2 normal, bent;  // (nv, no); mean direction of what is blocked times 32nds, along v and towards the side
+    float cosine;       // of the front of the sample before
+#endif
 };
 Side sideOf(float nv, float no, float least, float whole) {
     float scale = 16.0 / max(whole, 1e-6);
-    return Side(nv * scale, no * scale, (nv + 0.5 * kPi * no) * scale, least, 0u, 0.0, 0.0, 0.0, 32.0, 0.0);
+    return Side(nv * scale, no * scale, (nv + 0.5 * kPi * no) * scale, least, 0u, 0.0, 0.0, 0.0, 32.0, 0.0
+#ifdef BENT
+        , vec2(nv, no), vec2(0.0), least
+#endif
+    );
 }
 // (asin c + c sqrt(1 - c^2)) / c, to 0.006.
 float arcFactor(float c2) { return 1.98877 + c2 * (-0.27345 - 0.13895 * c2); }
@@ -72,6 +83,10 @@ float placeOf(Side side, float a, float b2) {
     float c = max(a * inversesqrt(max(a * a + b2, 1e-20)), side.least), c2 = c * c;
     return side.full - side.squareWeight * c2 - side.arcWeight * c * arcFactor(c2);
 }
+
+#ifdef BENT
+float cosineOf(Side side, float a, float b2) { return max(a * inversesqrt(max(a * a + b2, 1e-20)), side.least); }
+#endif
 
 // Covers what a layer of a sample hides: the plate from its front to its back and, if the sample before can be on the same surface, the gap
 // between them. f: depth relative to the receiver. first: the layer nearest the eye.
@@ -82,6 +97,10 @@ void cover(inout Side side, Receiver r, FalloffBlock rho, Plate plate, Aside asi
     float backA = a + abs(size) * towardsV, backB = b + abs(size) * towardsOd;
     float from = placeOf(side, a, (a > 0.0 ? plate.inner : plate.outer) * b * b),
           to = placeOf(side, backA, (backA > 0.0 ? plate.outer : plate.inner) * backB * backB);
+#ifdef BENT
+    float fromCosine = cosineOf(side, a, (a > 0.0 ? plate.inner : plate.outer) * b * b),
+          toCosine = cosineOf(side, backA, (backA > 0.0 ? plate.outer : plate.inner) * backB * backB);
+#endif
     float nearest = clamp(a * r.inverseV, 0.0, max(size, 0.0));  // a receiver behind a solid faces its back
     float nearA = a + nearest * towardsV, nearB = b + nearest * towardsOd, distance = sqrt(nearA * nearA + nearB * nearB);
     if (first) {
@@ -95,11 +114,20 @@ void cover(inout Side side, Receiver r, FalloffBlock rho, Plate plate, Aside asi
         from = joined ? min(from, before.place) : from;
         to = joined ? max(to, before.place) : to;
         distance = joined ? 0.5 * (distance + before.distance) : distance;
+#ifdef BENT
+        side.cosine = fromCosine;
+        fromCosine = joined ? max(fromCosine, before.cosine) : fromCosine;
+        toCosine = joined ? min(toCosine, before.cosine) : toCosine;
+#endif
     }
     bool above = height > kAbove * (abs(a) + abs(b));  // samples in the tangent plane cover nothing
     uint bits = counts && above ? bitsBetween(from, min(to, 32.0)) & ~side.covered : 0u;
     side.covered |= bits;
     side.blocked += falloff(rho, distance) * float(bitCount(bits));
+#ifdef BENT
+    vec2 mean = meanBent(side.normal.x, side.normal.y, fromCosine, min(toCosine, fromCosine));
+    side.bent += falloff(rho, distance) * float(bitCount(bits)) * mean;
+#endif
 }
 
 #endif

@@ -1,10 +1,15 @@
 // Visibility bitmask: a bit for each of 32 sectors of every slice of the hemisphere; samples of constant thickness set bits. Formulas:
-// runtime/ao/methods/visibility_bitmask/visibility_bitmask.cpp. In and out: ao/common/slice.glsl.
+// runtime/ao/methods/visibility_bitmask/visibility_bitmask.cpp. In and out: ao/common/slice.glsl; with BENT also raw bent normals.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variant BENT
 #include "ao/common/slice.glsl"
 #include "ao/visibility_bitmask/constants.h"
 #include "shared/falloff.h"
+#ifdef BENT
+#include "ao/common/bent_normals.glsl"
+layout(set = 0, binding = 4, rg32ui) uniform writeonly uimage2D bentNormals;
+#endif
 layout(push_constant) uniform Block { VisibilityBitmaskSectors constants; };
 layout(constant_id = 0) const bool kCosine = false;  // sectors have equal weight instead of equal angle
 
@@ -14,9 +19,18 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     float thick = constants.thickness;
     Receiver r;
-    if (!receive(view, p, rho.reach, r)) return;
+    if (!receive(view, p, rho.reach, r)) {
+#ifdef BENT
+        imageStore(bentNormals, p, rawBent(view.skyDepth, vec3(0.0)));
+#endif
+        return;
+    }
 
     float blocked = 0.0;
+#ifdef BENT
+    vec3 bentBlocked = vec3(0.0), bentWhole = vec3(0.0);
+    float arcsBlocked = 0.0, arcsWhole = 0.0;
+#endif
     for (uint k = 0u;;) {
         Slice slice = sliceAt(view, r, (float(k) + r.noise.x) * kPi / float(constants.slices), constants.rayAxis != 0u);
         float no = dot(r.n, slice.across), projected = sqrt(max(no * no + r.nv * r.nv, 1e-12)), sine = no / projected;
@@ -25,6 +39,10 @@ void main() {
         vec2 low = vec2(-sine, sine), whole = vec2(sliceArc(r.nv, no, low.x), sliceArc(r.nv, -no, low.y));
         float perSector = 32.0 / max(whole.x + whole.y, 1e-6), sum = 0.0;
         uint covered = 0u;
+#ifdef BENT
+        vec3 bent = vec3(0.0);
+        float arcs = 0.0;
+#endif
         for (uint i = 0u;;) {
             float t = samplePlace(r, k, i, constants.steps), l = t * t * r.radius + kTooClose;
             int level = levelAt(l, constants.mipOffset);
@@ -48,11 +66,32 @@ void main() {
                 uint bits = counts ? bitfieldInsert(0u, ~0u, sectors.x, max(sectors.y - sectors.x, 0)) & ~covered : 0u;
                 covered |= bits;
                 sum += weight * float(bitCount(bits));
+#ifdef BENT
+                float o = side == 0 ? no : -no, from = max(front, low[side]), to = min(max(back, low[side]), from);
+                float arc = max(sliceArc(r.nv, o, to) - sliceArc(r.nv, o, from), 0.0);
+                // Of equal weight, a sector has the same part of the integral; of equal angle, its own part of the sample's.
+                float part = weight * float(bitCount(bits)) * (kCosine ? 1.0 / perSector : arc / float(max(sectors.y - sectors.x, 1)));
+                vec2 mean = part * meanBent(r.nv, o, from, to);
+                bent += mean.x * r.v + (side == 0 ? mean.y : -mean.y) * slice.across;
+                arcs += part;
+#endif
             }
             if (++i >= constants.steps) break;
         }
         blocked += sum / 32.0 * (kCosine ? 0.5 * (whole.x + whole.y) : 1.0);
+#ifdef BENT
+        vec2 right = bentArc(r.nv, no, low.x), left = bentArc(r.nv, -no, low.y);
+        bentWhole += (right.x + left.x) * r.v + (right.y - left.y) * slice.across;
+        bentBlocked += bent;
+        arcsBlocked += arcs;
+        arcsWhole += whole.x + whole.y;
+#endif
         if (++k >= constants.slices) break;
     }
+#ifdef BENT
+    float perSlice = 0.5 / float(constants.slices);
+    vec3 bent = blockedBent(perSlice * bentBlocked, perSlice * bentWhole, r.n, 1.0 - arcsBlocked / max(arcsWhole, 1e-6));
+    imageStore(bentNormals, p, rawBent(-r.here.z, bent));
+#endif
     imageStore(noisy, p, uvec4(packNoisy(1.0 - blocked / float(constants.slices), r.edges)));
 }

@@ -61,6 +61,8 @@ int main(int argc, char** argv) {
                 for (int frame = 0; frame < 4; ++frame) {
                     const VkCommandBuffer cmd = renderer.begin();
                     const Obscurance::Picture picture = obscurance.record(cmd, renderer);
+                    const bool bends = std::string(method) != "far_field";
+                    expect(bool(picture.bentNormals) == bends, "bent normals are missing, or a surprise", method);
                     if (!picture.image) return std::printf("WRONG: %s: record\n", method), 1;
                     renderer.end(picture.image, picture.layout, 1);
                 }

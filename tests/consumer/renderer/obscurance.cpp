@@ -26,6 +26,8 @@ Obscurance::~Obscurance() { ao::destroy(m_context); }
 bool Obscurance::use(const char* method) {
     ao::MethodSettings settings;
     settings.falloff = {ao::FalloffKind::quadratic, 1.0f};
+    const ao::MethodInfo* info = ao::findMethod(method);
+    settings.bentNormals = info && info->bentNormals;
     return ao::setMethod(m_context, method, settings) == ao::Result::ok;
 }
 
@@ -39,6 +41,6 @@ Obscurance::Picture Obscurance::record(VkCommandBuffer cmd, const Renderer& rend
     frame.depth = {renderer.depth, renderer.depthView, VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
     frame.index = renderer.frame;
     const ao::Output output = ao::record(m_context, cmd, frame);
-    if (output.status != ao::Result::ok) return {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
-    return {output.image, output.layout};
+    if (output.status != ao::Result::ok) return {};
+    return {output.image, output.layout, output.bentNormals};
 }

@@ -15,8 +15,9 @@ public:
     ~Obscurance();                 // the GPU must be idle
     bool use(const char* method);  // false: unknown method, logged
     struct Picture {
-        VkImage image;
-        VkImageLayout layout;
+        VkImage image = VK_NULL_HANDLE;
+        VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+        VkImage bentNormals = VK_NULL_HANDLE;  // of methods that have them
     };
     // Visibility of the renderer's depth, 8 bits a pixel; null on failure.
     Picture record(VkCommandBuffer cmd, const Renderer& renderer);

@@ -101,6 +101,7 @@ struct MethodInfo {
     List<Parameter> parameters;  // its own, then those that all methods share
     List<Preset> presets;        // the first is "default"
     bool baseline = false;       // a published method to compare with
+    bool bentNormals = false;    // gives bent normals: MethodSettings::bentNormals
 };
 
 // All methods, in the order of keys and menus. Static storage.
@@ -206,6 +207,7 @@ struct MethodSettings {
     List<Setting> settings;          // replace those of preset and resolve
     Falloff falloff;                 // by which every method counts occluders
     const char* resolve = nullptr;   // of resolvePresets(), replaces settings of the preset; null: as the preset says
+    bool bentNormals = false;        // record() also gives Output::bentNormals; for methods with MethodInfo::bentNormals
 };
 // Selects the method of the next record() and makes its pipelines. Unknown ids are Result::invalid, with a log line that lists the known
 // ones; values out of range are clamped. On failure the method set before stays.
@@ -315,8 +317,13 @@ struct Frame {
     uint32_t view = 0;      // which view this is, below DeviceDesc::views: each has its own history and `cut`
 };
 
-// What record() gives. The image is the context's. It keeps its contents until framesInFlight more frames have been recorded; you may
-// leave it in any layout. (Bent normals would become a flag in MethodInfo and a second image here.)
+// What record() gives. The images are the context's. They keep their contents until framesInFlight more frames have been recorded; you may
+// leave them in any layout.
+//
+// A bent normal is the mean direction of unblocked light [Landis 2002]: with V visibility in the direction w, the integral of
+// V(w) (n.w) w dw over the hemisphere around the normal n, normalised. Occluders count by the falloff, as for visibility. Where nothing
+// is visible it is the normal. It is averaged over neighbours on the same surface, but not over frames, and leaves out the occluders of
+// the parameter `offscreen`.
 struct Output {
     Result status = Result::invalid;    // not ok: nothing was recorded, the handles are null, a log line says why
                                         // (outOfMemory: some commands may have been recorded; discard the command buffer)
@@ -324,6 +331,10 @@ struct Output {
     VkImageView view = VK_NULL_HANDLE;  // 2D, one mip
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // SHADER_READ_ONLY_OPTIMAL; reads in any shader stage need no barrier
     VkExtent2D size{};  // px: the visible size. The result is that part of the image, from its upper left pixel on
+    // With MethodSettings::bentNormals, else null: xyz the bent normal, eye space, unit length, 0 for sky; w visibility, 1 for sky.
+    // R8G8B8A8_SNORM; usage, layout and valid part as of `image`.
+    VkImage bentNormals = VK_NULL_HANDLE;
+    VkImageView bentNormalsView = VK_NULL_HANDLE;  // 2D, one mip
 };
 // Records the method's passes; the contract stands at the head of this file.
 OBSCURA_API Output record(Context* context, VkCommandBuffer cmd, const Frame& frame) noexcept;

@@ -82,7 +82,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
         const bool layered = inputs.layers.thickness && readsLayers(values);
         const float thickness = values["thickness"];
@@ -138,7 +138,7 @@ public:
         if (grid.batch < grid.half) sums = graph.image("far_field.sums", {VK_FORMAT_R32G32_SFLOAT, visible.x, visible.y});
         for (uint32_t first = 0; first < grid.half; first += grid.batch) {
             scan(graph, inputs, scanned, first);
-            if (!obscurance(graph, inputs, scanned, "far_field.obscurance", result, sums)) return {};
+            if (!obscurance(graph, inputs, scanned, "far_field.obscurance", result, sums)) return graph::ImageId{};
         }
         return result;
     }

@@ -16,6 +16,9 @@
 // default, a sample raises no horizon: it covers the arc from its front to its back in a mask of 32 equal intervals a side (with `horizon`
 // the falloff attenuates both ends; endless layers are then as published). It replaces XeGTAO's thin-occluder heuristic.
 //
+// Bent normals are the published term (shaders/ao/common/bent_normals.glsl) between the same horizons or of the same arcs, without XeGTAO's
+// fitted constants.
+//
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: depths, horizons, denoise twice.
 #include <cmath>
 #include <iterator>
@@ -66,18 +69,20 @@ const Preset kPresets[] = {
 const MethodInfo kInfo{"gtao", "Ground-truth ambient occlusion",
     "Jimenez, Wu, Pesce, Jarabo: Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016; XeGTAO, Strugar, McCalla 2021",
     "Two horizons in each slice through the view ray, integrated in closed form.", kDepth | kNormals, {kParameters, std::size(kParameters)},
-    {kPresets, std::size(kPresets)}, true};
+    {kPresets, std::size(kPresets)}, true, true};
 
 class Gtao final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    template <bool bent> static std::unique_ptr<Method> create(
+        gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Gtao>();
         for (uint32_t arcs = 0; arcs < 2; ++arcs) {
-            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp", {{0, arcs}, falloffConstant(falloff)},
-                    result->m_horizons[arcs]) != gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders, bent ? "ao/gtao/horizons.comp:BENT" : "ao/gtao/horizons.comp",
+                    {{0, arcs}, falloffConstant(falloff)}, result->m_horizons[arcs]) != gpu::Status::ok)
                 return nullptr;
-            if (gpu::Program::compute(device, shaders, "ao/gtao/horizons.comp:DEPTH_LAYERS", {{0, arcs}, falloffConstant(falloff)},
-                    result->m_layered[arcs]) != gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders,
+                    bent ? "ao/gtao/horizons.comp:DEPTH_LAYERS,BENT" : "ao/gtao/horizons.comp:DEPTH_LAYERS",
+                    {{0, arcs}, falloffConstant(falloff)}, result->m_layered[arcs]) != gpu::Status::ok)
                 return nullptr;
         }
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
@@ -87,7 +92,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const shared::GtaoHorizons constants{falloffBlock(stretched(inputs.falloffDesc, values["radius_scale"])), values.count("slices"),
             values.count("steps"), values["mip_offset"], values["power"], values["floor"], values.count("axis")};
@@ -98,11 +103,13 @@ public:
         graph::Pass& pass = graph.pass("gtao.horizons", (layers ? m_layered : m_horizons)[values.count("weighting")]);
         pass.read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy);
         if (layers) pass.read(layers);
+        const auto blur = SliceBlur(values.count("denoise"));
+        RawBentNormals bent;
+        if (values.bentNormals) pass.write((bent = sliceBent(graph, inputs, "gtao.bent", blur)).image);
         pass.constants(constants).dispatch(visible.x, visible.y);
 
-        const auto blur = SliceBlur(values.count("denoise"));
         const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == SliceBlur::edges, "gtao.denoise");
-        return blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "gtao.blur") : visibility;
+        return {blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "gtao.blur") : visibility, bent};
     }
 
     Blocking blocking(const Inputs& inputs, const Values& values) const override {
@@ -121,6 +128,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {.info = &kInfo, .create = &Gtao::create, .appliesPower = true}; }
+MethodEntry entry() { return {.info = &kInfo, .create = &Gtao::create<false>, .createBent = &Gtao::create<true>, .appliesPower = true}; }
 
 }  // namespace obscura::ao::gtao

@@ -4,6 +4,7 @@
 // starting at the tangent plane plus a bias. Two differences from the paper: the falloff is the shared type, and the tangent is found by
 // intersecting the neighbouring view ray with the tangent plane, which is exact under perspective. `axis`, `spacing`, `sample_test` and
 // `depth_layers` extend the paper; they are off by default, so that the default is the published method.
+// Bent normals are GTAO's term of the same horizons (shaders/ao/common/bent_normals.glsl), weighted by the falloff at each sample.
 // With depth layers a sample raises no horizon: it covers the sines from its front to its back in a mask of 32 equal intervals.
 //
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: horizons, gather, denoise.
@@ -56,17 +57,18 @@ const Preset kPresets[] = {
 const MethodInfo kInfo{"hbao", "Horizon-based ambient occlusion",
     "Bavoil, Sainz, Dimitrov: Image-Space Horizon-Based Ambient Occlusion, SIGGRAPH Talks 2008",
     "Searches for the horizon along directions on the screen. The method that most papers compare with.", kDepth | kNormals,
-    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, true};
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, true, true};
 
 class Hbao final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    template <bool bent> static std::unique_ptr<Method> create(
+        gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Hbao>();
-        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp", {falloffConstant(falloff)}, result->m_horizons) !=
-            gpu::Status::ok)
+        if (gpu::Program::compute(device, shaders, bent ? "ao/hbao/horizons.comp:BENT" : "ao/hbao/horizons.comp",
+                {falloffConstant(falloff)}, result->m_horizons) != gpu::Status::ok)
             return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/hbao/horizons.comp:DEPTH_LAYERS", {falloffConstant(falloff)}, result->m_layered) !=
-            gpu::Status::ok)
+        if (gpu::Program::compute(device, shaders, bent ? "ao/hbao/horizons.comp:DEPTH_LAYERS,BENT" : "ao/hbao/horizons.comp:DEPTH_LAYERS",
+                {falloffConstant(falloff)}, result->m_layered) != gpu::Status::ok)
             return nullptr;
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
         if (Denoise::create(device, shaders, result->m_denoise) != Status::ok) return nullptr;
@@ -74,7 +76,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const uint32_t side = tileSide(values);
         const shared::HbaoHorizons constants{inputs.falloff, sharedOut(values.count("directions"), side), values.count("steps"),
             values["bias"] * 0.017453293f, values["max_pixels"], values["spacing"], values.count("axis"), values.count("sample_test"),
@@ -85,9 +87,14 @@ public:
         graph::Pass& pass = graph.pass("hbao.horizons", layers ? m_layered : m_horizons);
         pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(visibility);
         if (layers) pass.read(layers);
+        RawBentNormals bent;
+        if (values.bentNormals) {
+            const uint32_t window = std::max(side, values.count("denoise") ? 4u : 1u);  // the noise of the denoiser is a 4x4 tile
+            pass.write((bent = {rawBentNormals(graph, visible.x, visible.y, "hbao.bent"), 1, window}).image);
+        }
         pass.constants(constants).dispatch(visible.x, visible.y);
         if (side > 1) visibility = m_gather.add(graph, inputs, visibility, side);
-        return values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "hbao.denoise") : visibility;
+        return {values.count("denoise") ? m_denoise.add(graph, inputs, visibility, "hbao.denoise") : visibility, bent};
     }
 
     Blocking blocking(const Inputs& inputs, const Values& values) const override {
@@ -103,6 +110,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Hbao::create}; }
+MethodEntry entry() { return {&kInfo, &Hbao::create<false>, &Hbao::create<true>}; }
 
 }  // namespace obscura::ao::hbao

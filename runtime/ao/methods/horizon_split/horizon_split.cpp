@@ -16,6 +16,9 @@
 // - Surfaces have a thickness, one for raising a line and one for blocking a ray: lines and rays farther behind pass
 //   [sec. 5 names the problem: figure 13's outliers]. In the paper thickness is endless.
 //
+// Bent normals: strips that raise a line count with the integral of w (n.w) over them, as H^2 is of n.w, and rays with their direction;
+// those of `term` normal rays are of both terms.
+//
 // Reads linear depth and normals, guard band included; writes visibility of the visible part. Passes: horizons (1 - O_T),
 // normal rays (1 - O_N alone, and both), gather when interleaved, blur.
 #include <algorithm>
@@ -90,23 +93,27 @@ const Preset kPresets[] = {
 };
 const MethodInfo kInfo{"horizon_split", "Horizon-split ambient occlusion", "Dimitrov, Bavoil, Sainz: Horizon-Split Ambient Occlusion, 2008",
     "Traces horizons around the normal and integrates below them in closed form; rays cover what is above.", kDepth | kNormals,
-    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, false, true};
 
 // Words of horizons per row of their image: keeps both sides of it within device limits for very wide and very high images.
 uint32_t wordColumns(const shared::uvec2& visible) { return visible.x > 8192 ? 1 : visible.y > 4096 ? 6 : 2; }
 
 class HorizonSplit final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    template <bool bent> static std::unique_ptr<Method> create(
+        gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<HorizonSplit>();
         const struct {
             const char* name;
             gpu::Program* program;
-        } programs[] = {{"ao/horizon_split/horizons.comp", &result->m_horizons},
-            {"ao/horizon_split/normal_rays.comp", &result->m_normalRays},
-            {"ao/horizon_split/normal_rays_voxels.comp", &result->m_voxelRays[0]},
-            {"ao/horizon_split/normal_rays_voxels.comp:VOLUME_NANOVDB", &result->m_voxelRays[1]},
-            {"ao/horizon_split/normal_rays_layers.comp", &result->m_layerRays}, {"ao/horizon_split/blur.comp", &result->m_blur}};
+        } programs[] = {{bent ? "ao/horizon_split/horizons.comp:BENT" : "ao/horizon_split/horizons.comp", &result->m_horizons},
+            {bent ? "ao/horizon_split/normal_rays.comp:BENT" : "ao/horizon_split/normal_rays.comp", &result->m_normalRays},
+            {bent ? "ao/horizon_split/normal_rays_voxels.comp:BENT" : "ao/horizon_split/normal_rays_voxels.comp", &result->m_voxelRays[0]},
+            {bent ? "ao/horizon_split/normal_rays_voxels.comp:VOLUME_NANOVDB,BENT"
+                  : "ao/horizon_split/normal_rays_voxels.comp:VOLUME_NANOVDB",
+                &result->m_voxelRays[1]},
+            {bent ? "ao/horizon_split/normal_rays_layers.comp:BENT" : "ao/horizon_split/normal_rays_layers.comp", &result->m_layerRays},
+            {"ao/horizon_split/blur.comp", &result->m_blur}};
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, name, {falloffConstant(falloff)}, *program) != gpu::Status::ok) return nullptr;
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
@@ -115,7 +122,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const uint32_t term = values.count("term"), side = tileSide(values);
         const float radius = radiusOf(inputs, values);
@@ -134,14 +141,12 @@ public:
         graph::ImageId result = graph.image("horizon_split.below horizon", picture);
         shared::HorizonSplitMarch tracing = constants;
         if (term == kMarching) tracing.steps = 0;  // without steps the horizon stays at 0, so rays cover the whole hemisphere
-        graph.pass("horizon_split.horizons", m_horizons)
-            .read(inputs.viewBlock)
-            .read(inputs.depth)
-            .read(inputs.normals)
-            .write(result)
-            .write(horizons)
-            .constants(tracing)
-            .dispatch(visible.x, visible.y);
+        graph::ImageId bent;
+        if (values.bentNormals) bent = rawBentNormals(graph, visible.x, visible.y, "horizon_split.bent");
+        graph::Pass& below = graph.pass("horizon_split.horizons", m_horizons);
+        below.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).write(result).write(horizons);
+        if (bent) below.write(bent);
+        below.constants(tracing).dispatch(visible.x, visible.y);
         const bool inVoxels = values.count("rays_in") && inputs.volume;
         if (values.count("depth_layers") && (!constants.rays || inVoxels) && !std::exchange(m_warnedOfLayers, true))
             graph.device().log(gpu::Severity::warning,
@@ -156,6 +161,11 @@ public:
             pass.read(inputs.viewBlock).read(inputs.depth).read(inputs.normals).read(result).read(horizons).write(above).write(both);
             if (layers) pass.read(layers);
             if (inVoxels) pass.read(inputs.volume.block).read(inputs.volume.bits);
+            if (bent) {
+                const graph::ImageId all = rawBentNormals(graph, visible.x, visible.y, "horizon_split.bent");
+                pass.read(bent).write(all);
+                bent = all;
+            }
             if (values.count("rays_in") && !inVoxels && !std::exchange(m_warned, true))
                 graph.device().log(gpu::Severity::warning,
                     "horizon_split: the frame has no volume (Frame::volume); normal rays use the depth buffer instead");
@@ -163,7 +173,8 @@ public:
             result = term == kNormalRays ? above : both;
         }
         if (side > 1) result = m_gather.add(graph, inputs, result, side);
-        return blurred(graph, inputs, result, values.count("blur"));
+        const uint32_t window = std::max(side, values.count("blur") == kNone ? 1u : 4u);  // the noise is a 4x4 tile
+        return {blurred(graph, inputs, result, values.count("blur")), {bent, 1, window}};
     }
 
     // Everything behind the horizon counts as blocked, although surfaces have a thickness; ray marching alone has no horizon.
@@ -207,7 +218,8 @@ private:
 }  // namespace
 
 MethodEntry entry() {
-    return {&kInfo, &HorizonSplit::create, [](const Values& values) { return values.count("rays_in") ? uint32_t(kVolume) : 0u; }};
+    return {&kInfo, &HorizonSplit::create<false>, &HorizonSplit::create<true>,
+        [](const Values& values) { return values.count("rays_in") ? uint32_t(kVolume) : 0u; }};
 }
 
 }  // namespace obscura::ao::horizon_split

@@ -6,6 +6,9 @@
 // for equal normals; steps shifted per ray; a filter range of a quarter of the reach; distances measured from the surface point although
 // rays start above it (as to a surface that faces the ray).
 //
+// Bent normals are the mean of the rays, by what is not blocked of each; where rays are taken in a cone narrower than the hemisphere, of
+// the cone.
+//
 // Rays are uniform in the cosine over the cone, at multiples of the golden angle around the normal, with noise fixed in the world.
 // Reads the volume, linear depth and normals; writes visibility of the visible part. Rays can be interleaved over the map's pixels.
 #include <algorithm>
@@ -61,17 +64,19 @@ const Preset kPresets[] = {
 const MethodInfo kInfo{"hybrid", "Hybrid ambient occlusion",
     "Reinbothe, Boubekeur, Alexa: Hybrid Ambient Occlusion, Eurographics 2009 Areas Papers",
     "Rays through a voxel grid of the world, so that occluders outside the image count.", kDepth | kNormals | kVolume,
-    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, false, true};
 
 class Hybrid final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    template <bool bent> static std::unique_ptr<Method> create(
+        gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Hybrid>();
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp", {falloffConstant(falloff)}, result->m_trace[0]) !=
-            gpu::Status::ok)
-            return nullptr;
-        if (gpu::Program::compute(device, shaders, "ao/hybrid/trace.comp:VOLUME_NANOVDB", {falloffConstant(falloff)}, result->m_trace[1]) !=
-            gpu::Status::ok)
+        const char* const programs[] = {bent ? "ao/hybrid/trace.comp:BENT" : "ao/hybrid/trace.comp",
+            bent ? "ao/hybrid/trace.comp:VOLUME_NANOVDB,BENT" : "ao/hybrid/trace.comp:VOLUME_NANOVDB"};
+        for (size_t i = 0; i < 2; ++i)
+            if (gpu::Program::compute(device, shaders, programs[i], {falloffConstant(falloff)}, result->m_trace[i]) != gpu::Status::ok)
+                return nullptr;
+        if (bent && gpu::Program::compute(device, shaders, "ao/common/no_bent_normals.comp", {}, result->m_noBent) != gpu::Status::ok)
             return nullptr;
         if (Upsample::create(device, shaders, result->m_upsample) != Status::ok ||
             Gather::create(device, shaders, result->m_gather) != Status::ok)
@@ -79,8 +84,8 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
-        if (!inputs.volume) return open(graph, inputs);
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+        if (!inputs.volume) return open(graph, inputs, values.bentNormals);
         const auto& visible = inputs.view.visible;
         const uint32_t scale = values.count("map"), side = tileSide(values);
         const uint32_t width = (visible.x + scale - 1) / scale, height = (visible.y + scale - 1) / scale;
@@ -91,32 +96,42 @@ public:
         const shared::HybridTrace trace{shared::sizeOf(width, height), inputs.falloff, sharedOut(values.count("rays"), side), steps, scale,
             std::cos(values["spread"] * 1.5707963f), values["offset"], values["jitter"], kGrain, side, values["stride"], octave,
             equal ? 1u : 0u};
-        graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)])
-            .read(inputs.viewBlock)
+        graph::Pass& pass = graph.pass("hybrid.trace", m_trace[size_t(inputs.volume.structure)]);
+        pass.read(inputs.viewBlock)
             .read(inputs.volume.block)
             .read(inputs.volume.bits)
             .read(inputs.depth)
             .read(inputs.normals)
             .write(map)
-            .write(receivers)
-            .constants(trace)
-            .dispatch(width, height);
+            .write(receivers);
+        RawBentNormals bent;
+        if (values.bentNormals) {
+            const uint32_t window =
+                std::max(side, values.count("filter") / (2 * scale));  // half as wide as visibility's, which is weighted
+            pass.write((bent = {rawBentNormals(graph, width, height, "hybrid.bent"), scale, window}).image);
+        }
+        pass.constants(trace).dispatch(width, height);
         if (side > 1) map = m_gather.addMap(graph, inputs, map, receivers, scale, side);
-        if (scale == 1 && values["filter"] < 1.0f) return map;
+        if (scale == 1 && values["filter"] < 1.0f) return {map, bent};
 
         const UpsampleSettings upsample{
             scale, std::max(values["filter"], 2.0f * float(scale)), values["filter_range"] * inputs.falloff.reach};
-        return m_upsample.add(graph, inputs, {map, receivers}, upsample, "hybrid");
+        return {m_upsample.add(graph, inputs, {map, receivers}, upsample, "hybrid"), bent};
     }
 
 private:
-    graph::ImageId open(graph::Graph& graph, const Inputs& inputs) {
+    MethodOutput open(graph::Graph& graph, const Inputs& inputs, bool bentNormals) {
         if (!std::exchange(m_warned, true))
             graph.device().log(gpu::Severity::warning, "hybrid: the frame has no volume (Frame::volume); visibility is 1 everywhere");
-        return allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "hybrid.open");
+        const graph::ImageId visibility = allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "hybrid.open");
+        if (!bentNormals) return visibility;
+        const RawBentNormals bent{rawBentNormals(graph, 1, 1, "hybrid.bent"), std::max(inputs.view.visible.x, inputs.view.visible.y), 1};
+        graph.pass("hybrid.open", m_noBent).write(bent.image).dispatch(1, 1);
+        return {visibility, bent};
     }
 
     gpu::Program m_trace[2];  // by VolumeStructure
+    gpu::Program m_noBent;
     Upsample m_upsample;
     Gather m_gather;
     bool m_warned = false;
@@ -124,6 +139,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Hybrid::create}; }
+MethodEntry entry() { return {&kInfo, &Hybrid::create<false>, &Hybrid::create<true>}; }
 
 }  // namespace obscura::ao::hybrid

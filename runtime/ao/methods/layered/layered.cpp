@@ -20,6 +20,8 @@
 // endless layers. Without depth layers everything has an assumed thickness. A second layer of half size is assigned to whole pixels when
 // layers are packed. Distant samples read coarser levels of the packed texels (ao/common/packed_layers.glsl), except without layers.
 //
+// Bent normals: newly covered bits count with the mean direction between the cosines that cover them.
+//
 // Reads linear depth, normals and depth layers, guard band included; writes visibility of the visible part. Passes: pack layers,
 // segments, gather; with a map also upsample. Slices are interleaved over the pixels of a tile; that is the only noise. The gather along
 // the surface weights every share equally, which removes more of it than a Gaussian and leaves no tile pattern. With `map` a part of the
@@ -69,25 +71,27 @@ const Preset kPresets[] = {
 };
 const MethodInfo kInfo{"layered", "Layered obscurance", "",
     "Reads depth layers behind the visible surface; samples cover strata of the hemisphere in a bitmask.", kDepth | kNormals,
-    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}};
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, false, true};
 
 class Layered final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    template <bool bent> static std::unique_ptr<Method> create(
+        gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<Layered>();
         if (LayerPass::create(device, shaders, result->m_layerPass) != Status::ok) return nullptr;
         const struct {
             const char* name;
             gpu::Program* program;
-        } programs[] = {{"ao/layered/segments.comp:NO_LAYERS", &result->m_segments[0]},
-            {"ao/layered/segments.comp", &result->m_segments[1]}, {"ao/layered/segments.comp:TWO_LAYERS", &result->m_segments[2]},
+        } programs[] = {{bent ? "ao/layered/segments.comp:NO_LAYERS,BENT" : "ao/layered/segments.comp:NO_LAYERS", &result->m_segments[0]},
+            {bent ? "ao/layered/segments.comp:BENT" : "ao/layered/segments.comp", &result->m_segments[1]},
+            {bent ? "ao/layered/segments.comp:TWO_LAYERS,BENT" : "ao/layered/segments.comp:TWO_LAYERS", &result->m_segments[2]},
             {"ao/layered/gather.comp", &result->m_gather[0]}, {"ao/layered/gather.comp:TO_MAP", &result->m_gather[1]}};
         for (const auto& [name, program] : programs)
             if (gpu::Program::compute(device, shaders, name, {falloffConstant(falloff)}, *program) != gpu::Status::ok) return nullptr;
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const uint32_t layers = !inputs.layers.thickness ? 0 : !inputs.layers.second ? 1 : 2;
         const graph::ImageId texels =
@@ -100,13 +104,11 @@ public:
             mapSize, inputs.falloff, slices, values.count("steps"), values["max_pixels"], side, map, values["thickness"], 0};
         graph::ImageId shares = graph.image("layered.shares", {VK_FORMAT_R32G32_UINT, width, height});
         const graph::ImageId visibility = graph.image("layered.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
-        graph.pass("layered.segments", m_segments[layers])
-            .read(inputs.viewBlock)
-            .read(inputs.normals)
-            .read(texels)
-            .write(shares)
-            .constants(constants)
-            .dispatch(width, height);
+        RawBentNormals bent;
+        graph::Pass& pass = graph.pass("layered.segments", m_segments[layers]);
+        pass.read(inputs.viewBlock).read(inputs.normals).read(texels).write(shares);
+        if (values.bentNormals) pass.write((bent = {rawBentNormals(graph, width, height, "layered.bent"), map, side}).image);
+        pass.constants(constants).dispatch(width, height);
         const shared::LayeredGather tile{mapSize, map, side / 2, side / 2 * 2 + 1, 0.5f * float(side) + 0.5f},
             four{mapSize, map, 0, 2, 1.0f};
         if (map > 1) {
@@ -129,7 +131,7 @@ public:
             .write(visibility)
             .constants(map > 1 ? four : tile)
             .dispatch(visible.x, visible.y);
-        return visibility;
+        return {visibility, bent};
     }
 
     // Rays behind a layer's back have not been counted.
@@ -145,6 +147,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &Layered::create}; }
+MethodEntry entry() { return {&kInfo, &Layered::create<false>, &Layered::create<true>}; }
 
 }  // namespace obscura::ao::layered

@@ -54,7 +54,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
         uint32_t mips = 1;
         while (std::max(view.size.x, view.size.y) >> mips) ++mips;

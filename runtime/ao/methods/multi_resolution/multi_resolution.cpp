@@ -123,7 +123,7 @@ public:
         return made ? std::move(result) : nullptr;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const shared::View& view = inputs.view;
         const float reach = inputs.falloff.reach, perTolerance = 1.0f / (values["tolerance"] * reach);
         const float columns = std::abs(view.project.x) / view.pixelsPerMetre;

@@ -10,7 +10,7 @@ const MethodInfo kInfo{
 
 class None final : public Method {
 public:
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values&) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values&) override {
         return allOpen(graph, {inputs.view.visible.x, inputs.view.visible.y}, "none.clear");
     }
 };

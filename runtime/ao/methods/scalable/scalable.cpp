@@ -63,7 +63,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const shared::ScalableSpiral constants{
             values.count("samples"), values.count("turns"), radiusOf(inputs, values), values["sigma"], values["bias"]};

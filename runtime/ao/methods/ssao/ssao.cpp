@@ -85,7 +85,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const std::vector<shared::vec4> kernel =
             kernelOf(inputs.falloffDesc, values.count("samples"), values.count("kernel") == 0, values["radius_scale"]);

@@ -116,7 +116,7 @@ public:
         return created ? std::move(result) : nullptr;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& view = inputs.view;
         const float R = quadraticReach(inputs.falloffDesc);
         const uint32_t layering = values.count("layers"), estimator = values.count("estimator");

@@ -9,6 +9,8 @@
 // (equal angles weight the horizon too much), coverage is rounded, and samples in the tangent plane are left out. `axis` spaces slices
 // evenly around the view ray.
 //
+// Bent normals: newly covered sectors count with the mean direction between the sample's front and back.
+//
 // Samples, noise, depth levels and denoiser are XeGTAO's, as in engines. Reads linear depth and normals, guard band
 // included; writes visibility of the visible part. Passes: depths, sectors, denoise twice.
 #include <iterator>
@@ -49,15 +51,17 @@ const Preset kPresets[] = {
 const MethodInfo kInfo{"visibility_bitmask", "Visibility bitmask",
     "Therrien, Levesque, Gilet: Screen Space Indirect Lighting with Visibility Bitmask, 2023",
     "A bitmask of 32 sectors for each slice through the view ray; samples of constant thickness cover sectors.", kDepth | kNormals,
-    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, true};
+    {kParameters, std::size(kParameters)}, {kPresets, std::size(kPresets)}, true, true};
 
 class VisibilityBitmask final : public Method {
 public:
-    static std::unique_ptr<Method> create(gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
+    template <bool bent> static std::unique_ptr<Method> create(
+        gpu::Device& device, const gpu::ShaderLibrary& shaders, FalloffKind falloff) {
         auto result = std::make_unique<VisibilityBitmask>();
         for (uint32_t cosine = 0; cosine < 2; ++cosine)
-            if (gpu::Program::compute(device, shaders, "ao/visibility_bitmask/sectors.comp", {{0, cosine}, falloffConstant(falloff)},
-                    result->m_sectors[cosine]) != gpu::Status::ok)
+            if (gpu::Program::compute(device, shaders,
+                    bent ? "ao/visibility_bitmask/sectors.comp:BENT" : "ao/visibility_bitmask/sectors.comp",
+                    {{0, cosine}, falloffConstant(falloff)}, result->m_sectors[cosine]) != gpu::Status::ok)
                 return nullptr;
         if (DepthMips::create(device, shaders, DepthMips::Filter::farthest, result->m_depths) != Status::ok) return nullptr;
         if (EdgeBlur::create(device, shaders, result->m_edgeBlur) != Status::ok) return nullptr;
@@ -65,23 +69,21 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const shared::VisibilityBitmaskSectors constants{
             inputs.falloff, values.count("slices"), values.count("steps"), values["thickness"], values["mip_offset"], values.count("axis")};
         const graph::ImageId depths = m_depths.add(graph, inputs, "visibility_bitmask.depths", inputs.falloff.reach);
         const graph::ImageId noisy = graph.image("visibility_bitmask.visibility and edges", {VK_FORMAT_R32_UINT, visible.x, visible.y});
-        graph.pass("visibility_bitmask.sectors", m_sectors[values.count("sectors")])
-            .read(inputs.viewBlock)
-            .read(inputs.normals)
-            .read(depths)
-            .write(noisy)
-            .constants(constants)
-            .dispatch(visible.x, visible.y);
-
         const auto blur = SliceBlur(values.count("denoise"));
+        RawBentNormals bent;
+        graph::Pass& pass = graph.pass("visibility_bitmask.sectors", m_sectors[values.count("sectors")]);
+        pass.read(inputs.viewBlock).read(inputs.normals).read(depths).write(noisy);
+        if (values.bentNormals) pass.write((bent = sliceBent(graph, inputs, "visibility_bitmask.bent", blur)).image);
+        pass.constants(constants).dispatch(visible.x, visible.y);
+
         const graph::ImageId visibility = m_edgeBlur.add(graph, noisy, blur == SliceBlur::edges, "visibility_bitmask.denoise");
-        return blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "visibility_bitmask.blur") : visibility;
+        return {blur == SliceBlur::surface ? m_denoise.add(graph, inputs, visibility, "visibility_bitmask.blur") : visibility, bent};
     }
 
     // Rays farther behind a sample than its thickness have not been counted.
@@ -96,6 +98,6 @@ private:
 
 }  // namespace
 
-MethodEntry entry() { return {&kInfo, &VisibilityBitmask::create}; }
+MethodEntry entry() { return {&kInfo, &VisibilityBitmask::create<false>, &VisibilityBitmask::create<true>}; }
 
 }  // namespace obscura::ao::visibility_bitmask

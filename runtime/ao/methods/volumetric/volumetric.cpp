@@ -62,7 +62,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const shared::VolumetricLines constants{values.count("lines"), radiusOf(inputs, values), values["thickness"], values.count("solid"),
             std::abs(inputs.view.project.x) / inputs.view.pixelsPerMetre};

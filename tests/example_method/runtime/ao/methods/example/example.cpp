@@ -30,7 +30,7 @@ public:
         return result;
     }
 
-    graph::ImageId add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
+    MethodOutput add(graph::Graph& graph, const Inputs& inputs, const Values& values) override {
         const auto& visible = inputs.view.visible;
         const graph::ImageId visibility = graph.image("example.visibility", {VK_FORMAT_R16_SFLOAT, visible.x, visible.y});
         graph.pass("example.samples", m_samples)
