@@ -6,7 +6,8 @@
 namespace obscura::ao {
 
 // History is last frame's result at the position that the motion vector gives or, without motion, at which last frame's camera saw the
-// surface: bilinear over those of its four pixels that show the same surface. Its weight after n frames is 1 - 1/(n + 1), at most `history`.
+// surface: bilinear over those of its four pixels that show the same surface. Its weight after n frames is 1 - 1/(n + 1), at most
+// `history`.
 struct TemporalSettings {
     float history = 0.9f;          // largest weight of history, 0 (off) to 0.98
     float depthTolerance = 0.02f;  // largest distance of a history pixel from the surface's plane, over its depth [Hoang 2012, eps]

@@ -4,7 +4,7 @@
 //
 // Contract. Nothing is submitted and nothing is waited for. After the first frames at a size, or below one Frame::maxSize, no device memory
 // is allocated and no Vulkan object is made; descriptor sets come from existing pools. Recording uses the heap. Call record() outside
-// rendering. It overwrites the pipeline, descriptor sets and push constants of the compute bind point, and no other command state. It places
+// rendering. It overwrites the pipeline, descriptor sets and push constants of the compute bind point, and no other command state. It puts
 // the barriers that its own reads need: inputs are read in compute shaders after all earlier commands, and are left in the layouts that you
 // name. No exception leaves the API; a failure is a Result and one line in your log. One thread uses a Context at a time. Contexts are
 // independent: there is no global state. Strings, lists and descriptions are read during the call; handles stay yours.
