@@ -31,23 +31,32 @@ void main() {
     n = dot(n, towardsEye(view, here)) < 0.0 ? -n : n;
     int scale = int(constants.scale), middle = int(constants.middle);
     vec2 place = (vec2(p) - float(middle)) / float(scale);
-    float sharpness = kPlane / depthForTolerance(view, z);
     ivec2 first = ivec2(floor(place - constants.covers)) + 1;
-    int taps = int(constants.taps);
+    // A neighbour's distance to the tangent plane, from its depth and pixel: n.r is linear over the image, r the view ray. Neighbours
+    // beyond the image's edge are taken to be at the map pixel's place all the same.
+    bool orthographic = view.orthographic > 0.5;
+    vec2 along = view.unproject.xy * n.xy;
+    float ray = dot(vec2(first * scale + middle + guard) + 0.5, along) + dot(view.unproject.zw, n.xy), plane = dot(here, n);
+    float sharpness = kPlane / depthForTolerance(view, z);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    for (int y = 0; y < taps; ++y) {
-        for (int x = 0; x < taps; ++x) {
-            ivec2 at = first + ivec2(x, y), q = clamp(at, ivec2(0), last), pixel = min(q * scale + middle, visible - 1) + guard;
+    int y = 0;
+    while (true) {
+        float row = clamp(constants.covers - abs(float(first.y + y) - place.y), 0.0, 1.0);
+        int x = 0;
+        while (true) {
+            ivec2 q = clamp(first + ivec2(x, y), ivec2(0), last);
             uvec2 texel = imageLoad(raw, q).xy;
-            vec2 window = clamp(constants.covers - abs(vec2(at) - place), 0.0, 1.0);
-            vec3 there = eyePosition(view, vec2(pixel) + 0.5, uintBitsToFloat(texel.x));
-            vec3 m = unpackNormal(imageLoad(normals, pixel).x);
-            float facing = abs(dot(n, m));
-            float w = window.x * window.y * facing * facing / (1.0 + sharpness * abs(dot(there - here, n)));
+            vec3 m = directionOf(imageLoad(normals, min(q * scale + middle, visible - 1) + guard).x);
+            float there = uintBitsToFloat(texel.x), rayThere = ray + float(scale) * dot(vec2(x, y), along);
+            float off = (orthographic ? rayThere : rayThere * there) - n.z * there - plane, facing = dot(n, m);
+            float w = row * clamp(constants.covers - abs(float(first.x + x) - place.x), 0.0, 1.0) * facing * facing /
+                      (dot(m, m) * (1.0 + sharpness * abs(off)));
             sum += w * unpackBent(texel.y);
             weights += w;
+            if (++x >= int(constants.taps)) break;
         }
+        if (++y >= int(constants.taps)) break;
     }
     vec3 bent = kWholeBent * n - sum / max(weights, 1e-6);
     // Noise may turn what is left of a dark corner below the surface; where nothing is left, the normal remains.
