@@ -118,6 +118,7 @@ int runHeadless(const Options& options) {
             frame.view = options.view;
             frame.passView = options.passView;
             frame.exposure = options.exposure * stage.info.exposure;
+            frame.bentNormals = options.bentNormals;
             frame.cut = i == 0;
             frame.skipMasked = options.skipMasked;
             frame.voxels = options.voxels;

@@ -120,6 +120,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->group(kPicture)
         ->check(CLI::Range(0.0f, 0.5f))
         ->capture_default_str();
+    cli.add_flag("--bent-normals", options.bentNormals, "Take ambient light from bent normals, of methods that have them");
     cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")
         ->group(kPicture)
         ->check(CLI::Range(0.001f, 1000.0f))

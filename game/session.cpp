@@ -34,6 +34,7 @@ Session::Session(const Options& given, Stage& stage_, Engine& engine_)
       time(given.time),
       exposure(given.exposure * stage_.info.exposure),
       guard(given.guard),
+      bentNormals(given.bentNormals),
       voxels(given.voxels),
       slice(given.slice),
       m_lastMethod(given.choice.current()) {
@@ -309,6 +310,7 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.view = view;
     frame.passView = passView;
     frame.exposure = exposure;
+    frame.bentNormals = bentNormals;
     frame.cut = cut;
     frame.skipMasked = options.skipMasked;
     frame.sampleStep = measures ? measuredStep(size) : 0;

@@ -34,6 +34,7 @@ public:
     float time = 0.0f;  // seconds, of the world
     float pace = 1.0f;  // world seconds per second
     float exposure = 1.0f, guard = 0.1f;
+    bool bentNormals = false;  // FrameOptions::bentNormals
     render::Voxelization voxels;
     render::VoxelSlice slice;
     bool paused = false;

@@ -43,7 +43,8 @@ TEST_F(Headless, SameCommandSameBytes) {
 TEST_F(Headless, TimeMethodViewAndCameraChangeThePicture) {
     ASSERT_EQ(shoot("still.png", {}).code, 0);
     const std::vector<std::string> changes[] = {{"--time", "0.5"}, {"--method", "none"}, {"--view", "visibility"}, {"--view", "normals"},
-        {"--view", "pass:gbuffer"}, {"--eye", "0,3,6", "--target", "0,0,0"}, {"--fov", "40"}, {"--exposure", "4"}};
+        {"--view", "bent-normals"}, {"--bent-normals"}, {"--view", "pass:gbuffer"}, {"--eye", "0,3,6", "--target", "0,0,0"},
+        {"--fov", "40"}, {"--exposure", "4"}};
     const std::string still = bytesOf(file("still.png"));
     for (const auto& change : changes) {
         const Ran ran = shoot("changed.png", change);
@@ -63,6 +64,16 @@ TEST_F(Headless, ObscuranceDarkensTheFootOfTheBox) {
         for (int x = 30; x < 66; ++x) darkest = std::min(darkest, at(x, y));
     EXPECT_LT(darkest, 190);
     EXPECT_GT(at(8, 50), darkest + 30);
+}
+
+// A method without bent normals lights as before.
+TEST_F(Headless, BentNormalsNeedAMethodThatHasThem) {
+    ASSERT_EQ(shoot("a.png", {"--method", "ssao"}).code, 0);
+    ASSERT_EQ(shoot("b.png", {"--method", "ssao", "--bent-normals"}).code, 0);
+    EXPECT_EQ(bytesOf(file("a.png")), bytesOf(file("b.png")));
+    ASSERT_EQ(shoot("c.png", {"--method", "hbao"}).code, 0);
+    ASSERT_EQ(shoot("d.png", {"--method", "hbao", "--bent-normals", "--compare", "ssao", "--split", "1"}).code, 0);
+    EXPECT_EQ(bytesOf(file("c.png")), bytesOf(file("d.png"))) << "both sides need them";
 }
 
 TEST_F(Headless, OutHoldsFramesSummaryAndTimings) {

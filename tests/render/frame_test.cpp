@@ -5,6 +5,8 @@
 #include <limits>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
+#include <glm/gtc/type_precision.hpp>
 
 #include "fixture.h"
 #include "graph/executor.h"
@@ -36,6 +38,47 @@ TEST_F(Frame, guardBandDoesNotChangeTheVisiblePart) {
     EXPECT_GT(covered, 30000u);
     EXPECT_LT(different, 20u);  // edges through pixel centres
     EXPECT_TRUE(guarded.depth.at<float>(20, 240) > 0.0f) << "the floor continues in the guard band";
+}
+
+// The view of bent normals is that of normals where nothing is blocked, and light from them then the same; elsewhere both differ.
+TEST_F(Frame, bentNormalsBendWhereLightIsBlocked) {
+    RenderFixture fixture;
+    const scene::World world = mixedWorld();
+    render::FrameOptions options = fixture.options();
+    ao::Values layered(*ao::findMethod("layered"));
+    options.method = &layered;
+    options.falloff = {ao::FalloffKind::quadratic, 0.5f};
+    const auto drawn = [&](render::View view, bool bent) {
+        options.view = view;
+        options.bentNormals = bent;
+        options.cut = true;
+        return fixture.render(world, options);
+    };
+    const Picture normals = drawn(render::View::normals, false), bent = drawn(render::View::bentNormals, false),
+                  plain = drawn(render::View::final, false), lit = drawn(render::View::final, true);
+    double openBend = 0.0, blockedBend = 0.0, open = 0.0, blocked = 0.0, openLight = 0.0, blockedLight = 0.0;
+    for (uint32_t y = 2; y < 238; ++y)
+        for (uint32_t x = 2; x < 318; ++x) {
+            if (!(normals.depth.at<float>(x + normals.guard.width, y + normals.guard.height) > 0.0f)) continue;
+            const float visibility = glm::unpackHalf1x16(plain.visibility.at<uint16_t>(x, y));
+            double bend = 0.0, light = 0.0;
+            for (int channel = 0; channel < 3; ++channel) {
+                const auto level = [&](const Pixels& of) { return double(of.at<glm::u8vec4>(x, y)[channel]); };
+                bend = std::max(bend, std::abs(level(normals.color) - level(bent.color)));
+                light = std::max(light, std::abs(level(plain.color) - level(lit.color)));
+            }
+            if (visibility > 0.999f) openBend += bend, openLight += light, open += 1.0;
+            if (visibility < 0.75f) blockedBend += bend, blockedLight += light, blocked += 1.0;
+        }
+    ASSERT_GT(open, 1000.0);
+    ASSERT_GT(blocked, 100.0);
+    EXPECT_LT(openBend / open, 1.0) << "levels of 255";
+    EXPECT_GT(blockedBend / blocked, 25.0);
+    EXPECT_LT(openLight / open, 0.3);
+    EXPECT_GT(blockedLight / blocked, 4.0);
+    EXPECT_EQ(drawn(render::View::final, false).color, plain.color);
+    options.method = fixture.options().method;  // none
+    EXPECT_EQ(drawn(render::View::bentNormals, false).color, drawn(render::View::visibility, false).color);
 }
 
 TEST_F(Frame, cullingIsInvisible) {
