@@ -102,7 +102,7 @@ struct FrameOptions {
 struct Outputs {
     graph::ImageId color;       // the image of `view`: R8G8B8A8_UNORM, sRGB-encoded where it is a colour, visible size
     graph::ImageId visibility;  // R16F, visible size: of the method, or of A and B on their sides of the divider
-    // As ao::Library::Added's, of the method, or of A and B on their sides; if all of their values or FrameOptions ask for them and have them.
+    // As ao::Library::Added's, of the method, or of A and B on their sides. Only if their values or FrameOptions ask, and both have them.
     graph::ImageId bentNormals;
     graph::ImageId sides[2];  // R16F, visible size: of A and of B alone; the latter only with `compare`
     // Data of every sampleStep-th visible pixel, at (i + 1/2) sampleStep px: half floats of A's and B's visibility, linear depth as float

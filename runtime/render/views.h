@@ -22,8 +22,9 @@ public:
     graph::ImageId addHistory(graph::Graph& graph, View view, const shared::View& frame);
     // Directions d of length 1 or 0, signed, visible size: d/2 + 1/2.
     graph::ImageId directions(graph::Graph& graph, graph::ImageId image, const shared::View& frame);
-    // Of A's and B's visibility, visible size. split(): A left of the divider, B right of it, of A's format. difference(): |A - B| / range as grey,
-    // or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is darker).
+    // Of A's and B's visibility, visible size. split(): A left of the divider, B right of it, of A's format; also of bent normals.
+    // difference(): |A - B| / range as grey, or A - B in the colours of post/false_colour.h (orange where A is lighter, blue where it is
+    // darker).
     graph::ImageId split(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float divider);
     graph::ImageId difference(graph::Graph& graph, graph::ImageId a, graph::ImageId b, float range, bool withSign);
     // Outputs::samples, from the other images of `outputs`.

@@ -57,7 +57,8 @@ float conesVisibility(float visibility, float roughness, vec3 bent, vec3 reflect
 }
 // Relative to an open surface, whose reflection is partly below it at grazing angles.
 float specularVisibility(float visibility, float roughness, vec3 bent, vec3 normal, vec3 reflected) {
-    return min(conesVisibility(visibility, roughness, bent, reflected) / max(conesVisibility(1.0, roughness, normal, reflected), 1e-3), 1.0);
+    float open = conesVisibility(1.0, roughness, normal, reflected);
+    return min(conesVisibility(visibility, roughness, bent, reflected) / max(open, 1e-3), 1.0);
 }
 #endif
 
