@@ -13,7 +13,8 @@ class BentNormals {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, BentNormals& out);
     // visibility: R16F, visible size. Returns R8G8B8A8_SNORM, visible size: xyz the bent normal, eye space, unit length; w visibility.
-    // `reduced`: the picture's pixels, each way, per pixel of the resolution that the method worked at (reduction.h). Sky: 0, 0, 0, 1. Where nothing is unblocked: the normal.
+    // `reduced`: the picture's pixels, each way, per pixel of the resolution that the method worked at (reduction.h).
+    // Sky: 0, 0, 0, 1. Where nothing is unblocked: the normal.
     graph::ImageId add(
         graph::Graph& graph, const Inputs& inputs, graph::ImageId visibility, const RawBentNormals& raw, uint32_t reduced = 1);
 

@@ -9,7 +9,7 @@ namespace obscura::ao {
 class Reduction {
 public:
     static Status create(gpu::Device& device, const gpu::ShaderLibrary& shaders, Reduction& out);
-    // The same frame of fewer pixels, each a pixel of the frame, not a mean of several, so that it has that pixel's place, depth and normal.
+    // The same frame of fewer pixels, each a pixel of the frame, not a mean of several, so that it has its place, depth and normal.
     // The visible part has the frame's size over `scale`, rounded up. The same pixels are taken in every frame: where they changed, history
     // had little less error and flickered up to twice as much.
     // No depth, logged: a pipeline cannot be made.

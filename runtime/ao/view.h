@@ -11,7 +11,8 @@ namespace obscura::ao {
 // off-centre, y flipped) is read from the matrix. Status::invalid with a reason if the matrix is no projection.
 Status viewOf(const Frame& frame, shared::View& view, const char*& reason);
 
-// Why a matrix is not Frame::eyeFromWorld, a rigid transform, mirrored if the world is left-handed: the rest of a sentence that begins with its name. Null: it is one.
+// Why a matrix is not Frame::eyeFromWorld, a rigid transform, mirrored if the world is left-handed: the rest of a sentence that
+// begins with its name. Null: it is one.
 const char* unfitEyeFromWorld(const float matrix[16]);
 
 // View::orthographicDepth of a view with its visible size and pixelsPerMetre.

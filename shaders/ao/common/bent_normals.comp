@@ -20,7 +20,8 @@ const float kPlane = 1000.0;  // per plane distance / depth: half the weight at 
 
 void main() {
     View view = viewBlock;  // a copy, so that the loop holds it in registers
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy), visible = ivec2(view.visible), last = (visible - 1) / int(constants.scale), guard = ivec2(view.guard);
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy), visible = ivec2(view.visible), guard = ivec2(view.guard);
+    ivec2 last = (visible - 1) / int(constants.scale);
     if (any(greaterThanEqual(p, visible))) return;
     float z = imageLoad(depth, p + guard).x;
     if (isSky(view, z)) {

@@ -1,5 +1,6 @@
 // Visibility of fewer pixels -> of all (runtime/ao/reduction.h). A pixel takes the bilinear mean of those of its four reduced neighbours
-// that are on its surface; where none is, the one that is nearest to its plane. In: linear depth and normals of the frame and of the reduced pixels, visibility of these. Out: visibility.
+// that are on its surface; where none is, the one that is nearest to its plane. In: linear depth and normals of the frame
+// and of the reduced pixels, visibility of these. Out: visibility.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "ao/common/constants.h"
