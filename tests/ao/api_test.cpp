@@ -100,7 +100,7 @@ TEST_F(ApiTest, motionScaleConvertsToPixelsAndCutDiscardsHistory) {
     const gpu::Image inNdc = motionImage(-6.0f / float(m_room.width), -4.0f / float(m_room.height));  // y up, from last frame to this
     const std::vector<float> followed = twoFrames(inPixels, 1, 1, false);
     EXPECT_EQ(twoFrames(inNdc, -0.5f * float(m_room.width), 0.5f * float(m_room.height), false), followed);
-    EXPECT_NE(twoFrames(inPixels, 0, 0, false), followed);
+    EXPECT_NE(twoFrames(inPixels, 0.25f, 0.25f, false), followed);
     EXPECT_NE(twoFrames(inPixels, 1, 1, true), followed);
     Frame f = frame();
     f.motion.image = m_depth.handle();

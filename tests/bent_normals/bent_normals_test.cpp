@@ -54,7 +54,7 @@ constexpr Row kRows[] = {
     {"horizon_split", "default", 1.3f, 3.0f, 0.8f, 1.4f, 0.5f, true},
     {"gtao", "half", 4.0f, 8.0f, 3.5f, 3.5f, 1.0f},
     {"layered", "half", 1.3f, 6.0f, 2.0f, 2.0f, 1.0f},
-    {"hybrid", "half", 1.3f, 12.0f, 4.0f, 4.5f, 3.0f},
+    {"hybrid", "half", 1.3f, 12.0f, 5.5f, 5.0f, 3.0f},
     {"horizon_split", "paper_fast", 1.3f, 6.5f, 1.8f, 2.3f, 0.3f},
 };
 

@@ -99,7 +99,7 @@ TEST(Cost, extrapolatedCyclesAgreeWithUnrolledOnes) {
         std::printf("  %s: %.0f cycles unrolled, %.0f extrapolated\n", shader, unrolled.cycles, fitted.cycles);
     };
     check("ao/gtao/horizons.comp", {{0, 0}, quadratic}, shared::GtaoHorizons{rho, 9, 3, 3.3f, 2.2f, 0.03f, 0});
-    check("ao/layered/segments.comp", {quadratic}, shared::LayeredSegments{rho, 2, 6, 4096, 1, 1, 0.25f});
+    check("ao/layered/segments.comp", {quadratic}, shared::LayeredSegments{{64, 1}, rho, 2, 6, 4096, 1, 1, 0.25f, 0});
     check("ao/hbao/horizons.comp", {quadratic}, shared::HbaoHorizons{rho, 16, 8, 0.17f, 4096, 0, 0, 0, 1});
 }
 
