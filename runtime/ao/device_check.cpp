@@ -1,4 +1,4 @@
-// check(): whether a device that a host is about to make, or has made, is one that create() can adopt.
+// checkDevice(): whether a device that a host is about to make, or has made, is one that create() can adopt.
 #include <string>
 
 #include <fmt/format.h>
@@ -40,10 +40,10 @@ Features enabled(const VkDeviceCreateInfo& info) {
     return result;
 }
 
-Status checkDevice(const DeviceDesc& desc, const VkDeviceCreateInfo& info, const HostLog& log) {
+Status findLacks(const DeviceDesc& desc, const VkDeviceCreateInfo& info, const HostLog& log) {
     Status worst = Status::ok;
     const auto say = [&](Status status, const std::string& line) {
-        log(("obscura: check(): " + line).c_str());
+        log(("obscura: checkDevice(): " + line).c_str());
         if (worst != Status::unsupported) worst = status;
     };
     if (!desc.instance || !desc.physicalDevice || !desc.getInstanceProcAddr)
@@ -88,9 +88,9 @@ Status checkDevice(const DeviceDesc& desc, const VkDeviceCreateInfo& info, const
 
 }  // namespace
 
-Status check(const DeviceDesc& desc, const VkDeviceCreateInfo& info) noexcept {
+Status checkDevice(const DeviceDesc& desc, const VkDeviceCreateInfo& info) noexcept {
     const HostLog log{desc.log, desc.logUser};
-    return guarded(log, [&] { return checkDevice(desc, info, log); });
+    return guarded(log, [&] { return findLacks(desc, info, log); });
 }
 
 }  // namespace obscura::ao

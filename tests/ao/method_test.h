@@ -44,7 +44,12 @@ protected:
         return result;
     }
 
-    Picture run(const Room& room, const ao::Values& values, const char* falloff) { return run(room, room.frame(), values, falloff); }
+    // Without motion vectors each run begins without history.
+    Picture run(const Room& room, const ao::Values& values, const char* falloff) {
+        ao::Frame frame = room.frame();
+        frame.cut = room.motion.empty();
+        return run(room, frame, values, falloff);
+    }
 
     // With the room's images; `frame` describes their formats and spaces.
     Picture run(const Room& room, const ao::Frame& frame, const ao::Values& values, const char* falloff) {

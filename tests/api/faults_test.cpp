@@ -313,7 +313,7 @@ TEST_F(Faulty, missingDeviceSupportIsNamed) {
     recover("hbao", "all of it");
 }
 
-// check() names each feature that a host forgot, before its device is made.
+// checkDevice() names each feature that a host forgot, before its device is made.
 TEST_F(Faulty, checkNamesWhatADeviceLacks) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, m_device.queueFamily(), 1, &priority};
@@ -326,7 +326,7 @@ TEST_F(Faulty, checkNamesWhatADeviceLacks) {
     m_desc.device = VK_NULL_HANDLE;
     const auto said = [&](Status expected, std::vector<std::string> words) {
         m_host.lines.clear();
-        EXPECT_EQ(check(m_desc, info), expected) << m_host.allSaid();
+        EXPECT_EQ(checkDevice(m_desc, info), expected) << m_host.allSaid();
         EXPECT_EQ(m_host.lines.size(), words.size()) << m_host.allSaid();
         for (const std::string& word : words) EXPECT_TRUE(m_host.said(word)) << word << "\n" << m_host.allSaid();
     };

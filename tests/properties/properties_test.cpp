@@ -57,7 +57,7 @@ constexpr Row kRows[] = {
 class Properties : public MethodTest {
 protected:
     Properties() : MethodTest("") {}
-    Picture once(const Room& room, const ao::Values& values) { return run(room, room.frame(), values, "quadratic:1"); }
+    Picture once(const Room& room, const ao::Values& values) { return run(room, values, "quadratic:1"); }
     // Mean of frames with different noise.
     Picture calm(Room room, ao::Values values) {
         constexpr int kFrames = 8;

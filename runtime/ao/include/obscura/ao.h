@@ -194,7 +194,7 @@ struct DeviceDesc {
 
 // Whether create() can adopt a device that vkCreateDevice() makes with `info`: its features, as pEnabledFeatures or in the chain, and
 // what the physical device supports. One log line for each thing that is missing says what to do. Of `desc`, `device` may be null.
-OBSCURA_API Result check(const DeviceDesc& desc, const VkDeviceCreateInfo& info) noexcept;
+OBSCURA_API Result checkDevice(const DeviceDesc& desc, const VkDeviceCreateInfo& info) noexcept;
 
 // A device and the method set on it; opaque.
 struct Context;

@@ -43,7 +43,7 @@ public:
         auto result = std::make_unique<Mipmap>();
         if (FalloffTable::create(device, shaders, result->m_table) != gpu::Status::ok) return nullptr;
         if (gpu::Program::compute(device, shaders, "ao/mipmap/base.comp", {}, result->m_base) != gpu::Status::ok) return nullptr;
-        const auto make = [&](const char* name, std::vector<gpu::Constant> constants, gpu::Program& program) {
+        const auto make = [&](const char* name, const std::vector<gpu::Constant>& constants, gpu::Program& program) {
             return gpu::Program::compute(device, shaders, name, constants, program) == gpu::Status::ok;
         };
         for (uint32_t thin = 0; thin < 2; ++thin)
