@@ -47,7 +47,7 @@ Library::Added declare(Context& context, graph::Graph& graph, const Frame& frame
         const bool multisampled = v.samples > VK_SAMPLE_COUNT_1_BIT;
         if (frame.origin.x == 0 && frame.origin.y == 0 && !multisampled) return whole;
         const graph::ImageId part =
-            context.crop.add(*context.device, context.shaders, graph, whole, originOf(frame, size), size, texel, 1, false, multisampled);
+            context.crop.add(*context.device, context.shaders, graph, whole, {originOf(frame, size), size, 1, false, multisampled}, texel);
         made = made && part;
         return part;
     };
@@ -95,16 +95,15 @@ VkExtent2D mostVisible(const Frame& frame, VkExtent2D visible) {
     return largestOf(visible, {std::max(most.width, twice.width) - twice.width, std::max(most.height, twice.height) - twice.height});
 }
 
+constexpr VkImageUsageFlags kOutputUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+
 gpu::ImageDesc outputDesc(const Context& context, VkExtent2D size) {
     const bool r8 = context.format == VisibilityFormat::r8;
-    const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    return {r8 ? VK_FORMAT_R8_UNORM : VK_FORMAT_R16_SFLOAT, size.width, size.height, 1, 1, r8 ? usage | VK_IMAGE_USAGE_STORAGE_BIT : usage};
+    return {r8 ? VK_FORMAT_R8_UNORM : VK_FORMAT_R16_SFLOAT, size.width, size.height, 1, 1,
+        r8 ? kOutputUsage | VK_IMAGE_USAGE_STORAGE_BIT : kOutputUsage};
 }
 
-gpu::ImageDesc bentDesc(VkExtent2D size) {
-    const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    return {VK_FORMAT_R8G8B8A8_SNORM, size.width, size.height, 1, 1, usage};
-}
+gpu::ImageDesc bentDesc(VkExtent2D size) { return {VK_FORMAT_R8G8B8A8_SNORM, size.width, size.height, 1, 1, kOutputUsage}; }
 
 gpu::Status nextOf(Context& context, std::vector<gpu::Image>& ring, const gpu::ImageDesc& desc, const char* name, const gpu::Image*& out) {
     gpu::Image& image = ring[context.device->frame() % ring.size()];

@@ -1,5 +1,4 @@
 // create() and destroy(): adopting a host's device.
-#include <algorithm>
 #include <string>
 
 #include "ao/context.h"
@@ -29,12 +28,11 @@ Status adopt(const DeviceDesc& desc, const HostLog& log, Context** context) {
     if (!desc.physicalDevice) return refuse("physicalDevice is null");
     if (!desc.device) return refuse("device is null");
     if (!desc.getInstanceProcAddr) return refuse("getInstanceProcAddr is null");
+    if (!desc.framesInFlight)
+        return refuse("framesInFlight is 0; it is the number of frames that you record before you wait for the first, 1 or more");
     if (desc.views < 1 || desc.views > kMostViews) return refuse("views is not from 1 to 16");
     if (!desc.memory.allocate != !desc.memory.free) return refuse("memory has one of its two functions; set both or neither");
     if (desc.format != VisibilityFormat::r16f && desc.format != VisibilityFormat::r8) return refuse("format is neither r16f nor r8");
-
-    if (!desc.framesInFlight)
-        return refuse("framesInFlight is 0; it is the number of frames that you record before you wait for the first, 1 or more");
 
     gpu::AdoptedDevice adopted;
     adopted.instance = desc.instance;

@@ -142,9 +142,9 @@ Library::Added Library::add(graph::Graph& graph, const Frame& frame, const Sourc
     visibility = m_temporal.add(graph, inputs, visibility, temporal, last.history, discard, "temporal");
     ControlSettings controls{values["intensity"], values["power"], values["floor"], values["fade_from"], values["fade_to"]};
     if (entry.appliesPower) controls.power = 1.0f, controls.floor = 0.0f;
-    const graph::ImageId bent =
-        values.bentNormals ? m_bentNormals->add(graph, inputs, visibility, drawn.bentNormals, scale) : graph::ImageId{};
-    return {m_controls.add(graph, inputs, visibility, controls), inputs, bent};
+    visibility = m_controls.add(graph, inputs, visibility, controls);
+    return {visibility, inputs,
+        values.bentNormals ? m_bentNormals->add(graph, inputs, visibility, drawn.bentNormals, scale) : graph::ImageId{}};
 }
 
 }  // namespace obscura::ao

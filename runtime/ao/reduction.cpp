@@ -54,7 +54,7 @@ Inputs Reduction::reduce(
         if (!whole) continue;
         // A layer of half size has a texel for every other pixel.
         const bool half = graph.desc(whole).width != inputs.view.size.x || graph.desc(whole).height != inputs.view.size.y;
-        reduced.layers.*layer = m_layers.add(device, shaders, graph, whole, first, {size.x, size.y}, Crop::Texel::floats2, scale, half);
+        reduced.layers.*layer = m_layers.add(device, shaders, graph, whole, {first, {size.x, size.y}, scale, half}, Crop::Texel::floats2);
         if (!(reduced.layers.*layer)) return {};
     }
     return reduced;

@@ -21,8 +21,7 @@ const char* const kScales[] = {"full", "half", "quarter"};
 const Parameter kShared[] = {
     {"scale", "", 0, 2, 0, true, {kScales, 3},
         "Resolution that the method works at, each way; the result is brought back to all pixels along surfaces. Half costs a quarter; "
-        "thin "
-        "things lose detail first."},
+        "thin things lose detail first."},
     {"temporal", "", 0, 0.98f, 0, false, {},
         "Largest weight of the reprojected history; samples then rotate from frame to frame. 0: off. Higher is calmer and reacts more "
         "slowly. Without motion vectors history follows the camera, and moving objects have none."},

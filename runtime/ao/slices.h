@@ -22,11 +22,6 @@ inline constexpr Parameter kSliceDenoise{"denoise", "", 0, 2, 1, true, {kSliceBl
     "5x5 blur that removes the noise: stopped at depth edges, as published, or weighted by depth and normal. None: noise shows; "
     "otherwise details of a few pixels soften."};
 
-// XeGTAO's presets; its preset high is the parameters' initial values.
-inline constexpr Setting kSlicesLow[] = {{"slices", 1}, {"steps", 2}};
-inline constexpr Setting kSlicesMedium[] = {{"slices", 2}, {"steps", 2}};
-inline constexpr Setting kSlicesUltra[] = {{"slices", 9}};
-
 // The image of a method's raw bent normals; the blur averages as many pixels as XeGTAO's noise needs.
 inline RawBentNormals sliceBent(graph::Graph& graph, const Inputs& inputs, const char* name, SliceBlur blur) {
     return {rawBentNormals(graph, inputs.view.visible.x, inputs.view.visible.y, name), 1, blur == SliceBlur::none ? 1u : 4u};

@@ -235,6 +235,9 @@ TEST_F(BentNormals, askingForThemLeavesVisibility) {
         run(room, asked, "quadratic:1");
         EXPECT_EQ(m_bent, first) << "the same frame twice";
         for (size_t i = 0; i < with.size(); ++i) ASSERT_NEAR(m_bent[i][3], 1.0f - with[i], 0.5f / 127.0f + 1e-3f);
+        asked.set("intensity", 0.5f);  // w is the visibility that is handed out
+        const Picture halved = run(room, asked, "quadratic:1");
+        for (size_t i = 0; i < halved.size(); ++i) ASSERT_NEAR(m_bent[i][3], 1.0f - halved[i], 0.5f / 127.0f + 1e-3f);
     }
 }
 

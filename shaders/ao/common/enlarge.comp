@@ -38,9 +38,12 @@ void main() {
     vec4 w = vec4((1.0 - f.x) * f.y, f.x * f.y, f.x * (1.0 - f.y), (1.0 - f.x) * (1.0 - f.y));
     vec4 off;
     for (int i = 0; i < 4; ++i) {
-        vec2 centre = texel + vec2(i == 1 || i == 2, i < 2) + 0.5;
-        off[i] = abs(dot(eyePosition(reduced, centre, zs[i]) - here, n));
-        bool same = !isSky(reduced, zs[i]) && off[i] < 0.01 * tolerance && dot(n, unpackNormal(packed[i])) > 0.5;
+        // What lies beyond the view, in an image that may be larger, is of another frame.
+        vec2 step = vec2(i == 1 || i == 2, i < 2);
+        bool inside = all(lessThan(corner + step, vec2(reduced.visible)));
+        values[i] = inside ? values[i] : 0.0;
+        off[i] = inside ? abs(dot(eyePosition(reduced, texel + step + 0.5, zs[i]) - here, n)) : 1e30;
+        bool same = inside && !isSky(reduced, zs[i]) && off[i] < 0.01 * tolerance && dot(n, unpackNormal(packed[i])) > 0.5;
         w[i] = same ? max(w[i], 1e-4) : 0.0;
     }
     if (w == vec4(0.0)) w = vec4(equal(off, vec4(min(min(off.x, off.y), min(off.z, off.w)))));

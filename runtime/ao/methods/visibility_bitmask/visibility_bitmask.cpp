@@ -40,11 +40,14 @@ const Parameter kParameters[] = {
 const Setting kFilament[] = {{"slices", 4}, {"thickness", 0.5f}};
 const Setting kTuned[] = {
     {"slices", 1}, {"steps", 9}, {"thickness", 0.5f}, {"sectors", 1}, {"axis", 1}, {"denoise", float(SliceBlur::surface)}};
+const Setting kLow[] = {{"slices", 1}, {"steps", 2}};
+const Setting kMedium[] = {{"slices", 2}, {"steps", 2}};
+const Setting kUltra[] = {{"slices", 9}};
 const Preset kPresets[] = {
     {"default", "3 slices x 3 steps per side, surfaces 0.25 m thick: Bevy's high.", {}},
-    {"low", "1 slice x 2 steps: Bevy's low.", {kSlicesLow, std::size(kSlicesLow)}},
-    {"medium", "2 slices x 2 steps: Bevy's medium.", {kSlicesMedium, std::size(kSlicesMedium)}},
-    {"ultra", "9 slices x 3 steps: Bevy's ultra.", {kSlicesUltra, std::size(kSlicesUltra)}},
+    {"low", "1 slice x 2 steps: Bevy's low.", {kLow, std::size(kLow)}},
+    {"medium", "2 slices x 2 steps: Bevy's medium.", {kMedium, std::size(kMedium)}},
+    {"ultra", "9 slices x 3 steps: Bevy's ultra.", {kUltra, std::size(kUltra)}},
     {"filament", "4 slices x 3 steps, surfaces 0.5 m thick, as in Filament.", {kFilament, std::size(kFilament)}},
     {"tuned", "1 slice x 9 steps, surfaces 0.5 m thick, sectors of equal weight, slices around the view ray.", {kTuned, std::size(kTuned)}},
 };
