@@ -16,7 +16,8 @@ using app::Complaint;
 
 namespace {
 
-constexpr std::string_view kFirstMethod = "hbao";
+constexpr std::string_view kFirstMethod = "layered";
+constexpr const char* kOwn = "preset";  // of --resolve: what the method's preset says
 
 }  // namespace
 
@@ -26,13 +27,24 @@ std::vector<std::string> methodIds() {
     return ids;
 }
 
-const ao::Preset* presetOf(const ao::Values& values) {
+Presets presetsOf(const ao::Values& values) {
     for (const ao::Preset& preset : values.info().presets) {
         ao::Values same(values.info());
         same.apply(preset);
-        if (same == values) return &preset;
+        if (same == values) return {&preset, nullptr};
+        for (const ao::Preset& resolve : ao::resolvePresets()) {
+            ao::Values resolved = same;
+            resolved.resolve(resolve);
+            if (resolved == values) return {&preset, &resolve};
+        }
     }
-    return nullptr;
+    return {};
+}
+
+void usePreset(ao::Values& values, const ao::Preset& preset) {
+    const ao::Preset* resolved = presetsOf(values).resolve;
+    values.apply(preset);
+    if (resolved) values.resolve(*resolved);
 }
 
 void resolve(ao::Values& values, const ao::Preset& wanted) {
@@ -83,18 +95,31 @@ std::vector<std::string> differences(const ao::Values& values) {
 
 std::string label(const ao::Values& values) {
     constexpr size_t kShown = 3;
-    if (const ao::Preset* preset = presetOf(values))
-        return preset == &values.info().presets[0] ? values.info().id : fmt::format("{} {}", values.info().id, preset->id);
+    if (const auto [preset, resolved] = presetsOf(values); preset)
+        return fmt::format("{}{}{}", values.info().id, preset == &values.info().presets[0] ? "" : fmt::format(" {}", preset->id),
+            resolved ? fmt::format(", {}", resolved->id) : "");
     std::vector<std::string> list = differences(values);
     if (list.size() > kShown) list.resize(kShown), list.push_back("...");
     return fmt::format("{} {}", values.info().id, fmt::join(list, " "));
 }
 
-std::string asOptions(const ao::Values& values, bool compare) {
-    std::string text = fmt::format("{} {}", compare ? "--compare" : "--method", values.info().id);
-    if (const ao::Preset* preset = presetOf(values))
-        return preset == &values.info().presets[0] ? text : fmt::format("{}{}{}", text, compare ? ":" : " --preset ", preset->id);
-    for (const std::string& difference : differences(values)) text += (compare ? "," : " --set ") + difference;
+std::vector<Argument> methodOptions(const ao::Values& values) {
+    std::vector<Argument> list{{"--method", values.info().id}};
+    if (const auto [preset, resolved] = presetsOf(values); preset) {
+        if (preset != &values.info().presets[0]) list.push_back({"--preset", preset->id});
+        list.push_back({"--resolve", resolved ? resolved->id : kOwn});
+        return list;
+    }
+    list.push_back({"--resolve", kOwn});
+    for (std::string& difference : differences(values)) list.push_back({"--set", std::move(difference)});
+    return list;
+}
+
+std::string compareText(const ao::Values& values) {
+    std::string text = values.info().id;
+    if (const auto [preset, resolved] = presetsOf(values); preset && !resolved)
+        return preset == &values.info().presets[0] ? text : fmt::format("{}:{}", text, preset->id);
+    for (const std::string& difference : differences(values)) text += "," + difference;
     return text;
 }
 
@@ -107,6 +132,10 @@ Choice::Choice() {
     if (m_values.empty()) throw Complaint("this build contains no obscurance method", app::kFailed);
     // The first entry is the method `none`; the game starts with kFirstMethod.
     for (m_current = m_values.size() - 1; m_current > 0 && std::string_view(info().id) != kFirstMethod; --m_current) {}
+}
+
+const ao::Values& Choice::valuesOf(const ao::MethodInfo& info) const {
+    return *std::find_if(m_values.begin(), m_values.end(), [&](const ao::Values& values) { return &values.info() == &info; });
 }
 
 void Choice::selectNext(int step) { m_current = size_t(int(m_current + m_values.size()) + step) % m_values.size(); }
@@ -131,11 +160,18 @@ void Choice::applyPreset(const std::string& id) {
 }
 
 void Choice::applyResolve(const std::string& id) {
+    if (id == kOwn) return;
     const ao::Preset* preset = ao::findResolvePreset(id.c_str());
-    std::vector<std::string> names;
+    std::vector<std::string> names{kOwn};
     for (const ao::Preset& known : ao::resolvePresets()) names.emplace_back(known.id);
     if (!preset) throw Complaint(fmt::format("--resolve {}: {}", id, app::choices(id, names)));
     resolve(values(), *preset);
+}
+
+void Choice::resolveAll(const std::string& id) {
+    const ao::Preset* preset = ao::findResolvePreset(id.c_str());
+    for (ao::Values& values : m_values)
+        if (preset && values.info().needs) resolve(values, *preset);
 }
 
 void Choice::assign(const std::string& assignment) {

@@ -68,7 +68,12 @@ void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& v
     expect(frames().end(graph()), "warming up");
 }
 
-void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
+void Engine::warmUp(const Options& options, Stage& stage, const ao::MethodInfo& info) {
+    for (const render::View view : {render::View::final, render::View::visibility})
+        frameOnce(options, stage, options.choice.valuesOf(info), nullptr, view);
+}
+
+void Engine::prepare(const Options& options, Stage& stage, std::span<const ao::MethodInfo* const> methods) {
     double begun = app::now();
     {
         app::Progress progress("uploading " + stage.info.name, 1);
@@ -77,9 +82,6 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
     started.scene = stage.loadSeconds + (app::now() - begun) * 1e-3;
 
     begun = app::now();
-    std::vector<const ao::MethodInfo*> methods;
-    if (allMethods) methods.assign(ao::methods().begin(), ao::methods().end());
-    else methods.push_back(&options.choice.info());
     {
         app::Progress progress("making pipelines", methods.size());
         for (size_t i = 0; i < methods.size(); ++i) {
@@ -97,13 +99,56 @@ void Engine::prepare(const Options& options, Stage& stage, bool allMethods) {
     app::Progress progress("warming up", methods.size());
     for (size_t i = 0; i < methods.size(); ++i) {
         progress.at(i, methods[i]->id);
-        frameOnce(options, stage, ao::Values(*methods[i]), nullptr, render::View::final);
-        frameOnce(options, stage, ao::Values(*methods[i]), nullptr, render::View::visibility);
+        warmUp(options, stage, *methods[i]);
     }
     const ao::Values* compare = options.compare ? &options.compare->values() : nullptr;
-    if (options.view != render::View::pass) frameOnce(options, stage, options.choice.values(), compare, options.view);
+    if (options.view != render::View::pass && !methods.empty()) frameOnce(options, stage, options.choice.values(), compare, options.view);
     expect(frames().wait(), "warming up");
     started.warmUp = (app::now() - begun) * 1e-3;
+}
+
+double obscuranceCost(const app::Statistics& statistics, std::string_view side) {
+    // The passes that draw a frame and are no method's.
+    constexpr std::string_view kFrame[] = {"antialias", "blend", "capture", "deform", "deform.grow", "depth", "difference", "gbuffer",
+        "lighting", "overlay", "present", "samples", "shadow", "shadow.copy", "shadow.rest", "split", "tone map", "view", "voxels.view"};
+    double sum = 0.0;
+    for (const app::Series& pass : statistics.passes())
+        if (pass.name.starts_with(side) && std::find(std::begin(kFrame), std::end(kFrame), pass.name) == std::end(kFrame))
+            sum += pass.median();
+    return sum;
+}
+
+std::vector<double> Engine::costs(
+    const Options& options, Stage& stage, std::span<const ao::Values> settings, double enough, double seconds) {
+    constexpr uint32_t kSettling = 2, kTimed = 3;  // frames
+    std::vector<double> costs;
+    if (!device().caps().timestamps) return costs;
+    const double begun = app::now();
+    const uint32_t divisor = device().caps().software ? 2 : 1;
+    const auto passesOf = [&](const ao::Values& values) {
+        render::FrameOptions frame;
+        frame.visible = {std::max(options.size.width / divisor, 1u), std::max(options.size.height / divisor, 1u)};
+        frame.guard = options.guard;
+        frame.camera = stage.camera(options.camera, options.time);
+        frame.time = options.time;
+        frame.method = &values;
+        frame.falloff = options.choice.falloff;
+        frame.voxels = options.voxels;
+        app::Statistics statistics(kTimed);
+        const uint32_t frameCount = kSettling + kTimed;
+        for (uint32_t i = 0; i < frameCount + device().framesInFlight(); ++i) {
+            expect(frames().begin(graph()), "measuring");
+            if (i >= device().framesInFlight()) statistics.add(graph().timings());
+            if (i < frameCount) graph().output(m_renderer->add(graph(), stage.world, frame).color);
+            expect(frames().end(graph()), "measuring");
+        }
+        return statistics;
+    };
+    for (const ao::Values& values : settings) {
+        costs.push_back(obscuranceCost(passesOf(values)) * double(divisor * divisor));
+        if (costs.back() > enough || (app::now() - begun) * 1e-3 > seconds) break;
+    }
+    return costs;
 }
 
 }  // namespace obscura::game

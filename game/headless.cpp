@@ -61,6 +61,11 @@ int reportValidation(const Options& options, Engine& engine) {
     return count ? app::kInvalidUse : 0;
 }
 
+std::vector<const ao::MethodInfo*> preparedMethods(const Options& options) {
+    if (options.switchTest) return {ao::methods().begin(), ao::methods().end()};
+    return {&options.choice.info()};
+}
+
 int runHeadless(const Options& options) {
     // Outputs, scene and camera are checked before the slow start-up.
     if (!options.out.empty()) app::expectFolder(options.out);  // may hold the screenshot
@@ -74,7 +79,7 @@ int runHeadless(const Options& options) {
     stage.dropToys(options.toys, options.time);
 
     Engine engine(options, nullptr);
-    engine.prepare(options, stage, options.switchTest.has_value());
+    engine.prepare(options, stage, preparedMethods(options));
     if (options.verbose)
         fmt::print(stderr,
             "obscura: {}: started in {:.2f} s (device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {})\n",

@@ -21,4 +21,7 @@ void switchTest(const Options& options, Engine& engine, Stage& stage);
 // With validation on, prints the number of validation messages; returns kInvalidUse if there are any, else 0.
 int reportValidation(const Options& options, Engine& engine);
 
+// The methods that a run shows: all of the switch test, else the chosen one.
+std::vector<const ao::MethodInfo*> preparedMethods(const Options& options);
+
 }  // namespace obscura::game

@@ -48,6 +48,7 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_TAB, Action::toggleOverlay, "Tab", "show panels, on and off"},
     {GLFW_KEY_F1, Action::toggleKeys, "F1", "this list of keys"},
     {GLFW_KEY_F2, Action::screenshot, "F2", "screenshot without panels, as PNG"},
+    {GLFW_KEY_F3, Action::copyCommand, "F3", "copy the command that starts the game with this frame"},
     {GLFW_KEY_F11, Action::fullScreen, "F11", "full screen"},
     {GLFW_KEY_ESCAPE, Action::quit, "Esc", "quit"},
 };
@@ -58,11 +59,24 @@ constexpr HeldKeys kHeld[] = {
     {"Shift", "four times as fast"},
     {"right mouse button", "look around"},
     {"arrows", "look around"},
+    {"gamepad", "left stick: move; right stick: look around; triggers: down and up"},
+};
+
+constexpr ButtonBinding kButtons[] = {
+    {GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, Action::previousMethod, "left bumper", "previous method"},
+    {GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, Action::nextMethod, "right bumper", "next method"},
+    {GLFW_GAMEPAD_BUTTON_A, Action::dropToy, "A", "drop a walking toaster"},
+    {GLFW_GAMEPAD_BUTTON_B, Action::visibilityOnly, "B", "show visibility only"},
+    {GLFW_GAMEPAD_BUTTON_X, Action::nextPreset, "X", "next preset"},
+    {GLFW_GAMEPAD_BUTTON_Y, Action::toggleWalk, "Y", "fly or walk"},
+    {GLFW_GAMEPAD_BUTTON_START, Action::pause, "start", "pause and resume"},
+    {GLFW_GAMEPAD_BUTTON_BACK, Action::toggleOverlay, "back", "show panels"},
 };
 
 }  // namespace
 
 std::span<const KeyBinding> keyBindings() { return kBindings; }
+std::span<const ButtonBinding> buttonBindings() { return kButtons; }
 std::span<const HeldKeys> heldKeys() { return kHeld; }
 
 std::string keyPage(bool withTitle) {
@@ -70,6 +84,8 @@ std::string keyPage(bool withTitle) {
     for (const HeldKeys& held : kHeld) page += fmt::format("  {:<20} {}\n", held.name, held.effect);
     for (const KeyBinding& binding : kBindings)
         if (binding.name) page += fmt::format("  {:<20} {}\n", binding.name, binding.effect);
+    page += withTitle ? "Gamepad:\n" : "\n";
+    for (const ButtonBinding& binding : kButtons) page += fmt::format("  {:<20} {}\n", binding.name, binding.effect);
     return page;
 }
 

@@ -38,6 +38,7 @@ enum class Action {
     record,
     replay,
     measure,
+    copyCommand,
 };
 
 struct KeyBinding {
@@ -49,14 +50,21 @@ struct KeyBinding {
 };
 std::span<const KeyBinding> keyBindings();
 
-// Keys that move the camera while held.
+struct ButtonBinding {
+    int button;  // GLFW code of a gamepad's button
+    Action action;
+    const char *name, *effect;
+};
+std::span<const ButtonBinding> buttonBindings();
+
+// Keys and sticks that move the camera while held.
 struct HeldKeys {
     const char* name;
     const char* effect;
 };
 std::span<const HeldKeys> heldKeys();
 
-// Both tables as text, two columns.
+// All tables as text, two columns.
 std::string keyPage(bool withTitle);
 
 }  // namespace obscura::game

@@ -11,6 +11,7 @@
 #include "app/voxel_arguments.h"
 #include "keys.h"
 #include "scene/hash.h"
+#include "settings.h"
 
 namespace obscura::game {
 
@@ -58,11 +59,9 @@ CameraChoice cameraOf(const std::string& text) {
     return camera;
 }
 
-}  // namespace
-
-std::optional<Options> parseOptions(int argc, const char* const* argv) {
+std::optional<Options> parse(const std::vector<std::string>& words) {
     Options options;
-    for (int i = 0; i < argc; ++i) options.commandLine += (i ? " " : "") + std::string(argv[i]);
+    options.commandLine = fmt::format("{}", fmt::join(words, " "));
 
     CLI::App cli{"Obscura: walk through a scene and switch its ambient-obscurance method while it moves.", "obscura"};
     cli.set_help_flag("-h,--help", "Print this and exit");
@@ -73,12 +72,15 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
                "  OBSCURA_SHADERS      the shaders folder whose edits are reloaded\n"
                "  OBSCURA_DEVICE       default of --device\n"
                "  OBSCURA_VALIDATION   1 or sync, as --validation core or sync\n"
+               "  XDG_CONFIG_HOME      folder of obscura/settings, which the window remembers (default: ~/.config)\n"
                "\nExit codes: 0 success, 1 device or system failure, 2 invalid input, 3 validation messages\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
     std::string method, preset, resolve, offscreen, falloff, compare, view = "final", slice, size, camera, path, eye, target;
     std::vector<std::string> assignments;
     bool headless = false, listMethods = false, listScenes = false, listScene = false, listDevices = false, flythrough = false,
-         noVsync = false;
+         noVsync = false, noSettings = false;
+    double budget = 0.0;
+    float uiScale = 1.0f;
     uint32_t frames = 1, switchTest = 0;
     float fov = 60.0f;
 
@@ -88,7 +90,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->capture_default_str();
     cli.add_option("--method", method, "Obscurance method, by its id (--list-methods)")->group(kPicture);
     cli.add_option("--preset", preset, "Preset of that method")->group(kPicture);
-    cli.add_option("--resolve", resolve, "Noise removal: raw (none), spatial (the method's blur), or temporal (blur and history)")
+    cli.add_option("--resolve", resolve,
+           "Noise removal: raw (none), spatial (the method's blur), temporal (blur and history; the window's default) or preset (as the "
+           "preset "
+           "says; the default without a window)")
         ->group(kPicture);
     cli.add_option("--set", assignments, "METHOD.PARAMETER=VALUE, or PARAMETER=VALUE for the chosen method; may be repeated")
         ->group(kPicture)
@@ -179,6 +184,16 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         cli.add_option("--switch-test", switchTest, "Run every method this many frames, then switch at each frame; report the worst")
             ->group(kRun)
             ->check(CLI::Range(1u, 10000u));
+    auto* budgetOption = cli.add_option("--budget", budget,
+                                "GPU time for obscurance, ms; the window starts with the most accurate method within it, unless "
+                                "a method is given (default: 2, on a software device 60)")
+                             ->group(kRun)
+                             ->check(CLI::Range(0.01, 10000.0));
+    auto* scaleOption = cli.add_option("--ui-scale", uiScale, "Size of the panels' text, 1 for small screens (default: by the monitor)")
+                            ->group(kRun)
+                            ->check(CLI::Range(0.5f, 4.0f));
+    cli.add_flag("--no-settings", noSettings, "Neither use nor write the settings that the window keeps from one start to the next")
+        ->group(kRun);
     cli.add_flag("--full-screen", options.fullScreen, "Start in full screen")->group(kRun);
     cli.add_flag("--no-vsync", noVsync, "Present without waiting for vertical sync")->group(kRun);
     cli.add_flag("--no-present", options.noPresent, "Behave as on a device that cannot present")->group(kRun);
@@ -204,7 +219,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_flag("--list-scene", listScene, "Print the cameras, animations, variants and extensions of --scene")->group(kLists);
     cli.add_flag("--list-devices", listDevices, "Print the Vulkan devices")->group(kLists);
 
-    if (!app::parse(cli, argc, argv)) return std::nullopt;
+    std::vector<const char*> argv;
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    if (!app::parse(cli, int(argv.size()), argv.data())) return std::nullopt;
 
     if (listMethods) options.job = Job::listMethods;
     else if (listScenes) options.job = Job::listScenes;
@@ -237,9 +254,13 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         if (options.camera.eye == options.camera.target) throw Complaint("--target: must differ from --eye");
     }
     if (*fovOption) options.camera.fovDegrees = fov;
+    if (*budgetOption) options.budget = budget;
+    if (*scaleOption) options.uiScale = uiScale;
     if (!method.empty()) options.choice.select(method);
     if (!preset.empty()) options.choice.applyPreset(preset);
     if (!resolve.empty()) options.choice.applyResolve(resolve);
+    if (options.job == Job::play) options.choice.resolveAll(resolve.empty() ? "temporal" : resolve);
+    options.namesMethod = !method.empty() || !preset.empty() || !resolve.empty() || !assignments.empty();
     if (!offscreen.empty()) options.choice.assignToAll("offscreen", offscreen);
     for (const std::string& assignment : assignments) options.choice.assign(assignment);
     if (!falloff.empty()) options.choice.setFalloff(falloff);
@@ -249,7 +270,33 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (!compare.empty()) options.compare.emplace().read(compare);
     if (render::isDifference(options.view) && !options.compare)
         throw Complaint(fmt::format("--view {}: needs two methods; give the second with --compare", view));
+    if (!noSettings) options.settings = settingsFile();
     return options;
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, const char* const* argv) {
+    const std::vector<std::string> words(argv, argv + argc);
+    std::optional<Options> options = parse(words);
+    if (!options || options->job != Job::play || options->settings.empty()) return options;
+    try {
+        // Remembered settings stand before the command line, which overrides them; a method there is not mixed with a remembered one.
+        std::vector<std::string> all{words.front()};
+        for (const auto& [option, value] : readSettings(options->settings)) {
+            const bool ofMethod = option == "--method" || option == "--preset" || option == "--resolve" || option == "--set";
+            if (ofMethod && options->namesMethod) continue;
+            all.push_back(option);
+            if (!value.empty()) all.push_back(value);
+        }
+        all.insert(all.end(), words.begin() + 1, words.end());
+        std::optional<Options> remembered = parse(all);
+        remembered.value().commandLine = options->commandLine;
+        return remembered;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "obscura: the settings of the last start are not used: {}\n", error.what());
+        return options;
+    }
 }
 
 }  // namespace obscura::game

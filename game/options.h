@@ -49,7 +49,11 @@ struct Options {
     float step = 1.0f / 30.0f;
     float guard = 0.1f;
     float exposure = 1.0f;
-    uint32_t toys = 0;  // dropped at the start
+    std::optional<double> budget;    // ms of GPU time for obscurance; empty: by the kind of device
+    bool namesMethod = false;        // a method, preset, resolve or parameter is given: none is recommended
+    std::optional<float> uiScale;    // size of the panels' text; empty: by the monitor
+    std::filesystem::path settings;  // file of remembered settings; empty: none
+    uint32_t toys = 0;               // dropped at the start
     bool skipMasked = false;
     bool bentNormals = false;  // of methods that have them: ambient light is taken from them
     bool measure = false;

@@ -25,28 +25,89 @@ void tip(const char* sentence) {
 
 namespace {
 
+// Which group of the menu a method stands in.
+enum class Group { papers, own, baselines, off };
+constexpr std::pair<Group, const char*> kGroups[] = {
+    {Group::own, "our own"}, {Group::papers, "of the papers"}, {Group::baselines, "baselines"}, {Group::off, "off"}};
+
+Group groupOf(const ao::MethodInfo& info) {
+    if (!info.needs) return Group::off;
+    if (info.baseline) return Group::baselines;
+    return *info.paper ? Group::papers : Group::own;
+}
+
+// What the menu says of a method's cost: measured here, or by its cycles from that of the present method.
+std::string costText(const Session& session, size_t method) {
+    if (session.costs[method] > 0.0) return fmt::format("{:.2f}", session.costs[method]);
+    const size_t present = session.choice.current();
+    const auto cyclesOf = [&](size_t i) {
+        const ao::Values& values = session.choice.valuesOf(i);
+        const ao::Preset* preset = presetsOf(values).preset;
+        const auto figures = preset ? session.figures.of(values.info().id, preset->id) : std::nullopt;
+        return figures ? figures->cycles.value_or(0.0) : 0.0;
+    };
+    const double from = cyclesOf(present), to = cyclesOf(method);
+    if (!ao::methods()[method]->needs || from == 0.0 || to == 0.0 || session.costs[present] == 0.0) return "";
+    return fmt::format("~{:.2f}", session.costs[present] * to / from);
+}
+
+void methodRow(Session& session, size_t i) {
+    const ao::MethodInfo& info = *ao::methods()[i];
+    const ao::Values& values = session.choice.valuesOf(i);
+    const ao::Preset* preset = presetsOf(values).preset;
+    const auto figures = preset ? session.figures.of(info.id, preset->id) : std::nullopt;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const std::string name = fmt::format("{}  {}", i < 9 ? std::to_string(i + 1) : std::string(" "), info.id);
+    if (ImGui::Selectable(name.c_str(), i == session.choice.current(), ImGuiSelectableFlags_SpanAllColumns)) session.selectMethod(i);
+    tip(fmt::format("{}. {}{}{}", info.title, info.sentence, *info.paper ? "\n\n" : "", info.paper).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(costText(session, i).c_str());
+    ImGui::TableNextColumn();
+    if (figures) ImGui::TextUnformatted(fmt::format("{:.3f}", figures->eA).c_str());
+}
+
 void methodMenu(Session& session) {
-    const auto methods = ao::methods();
-    ImGui::SetNextItemWidth(-1.0f);
-    if (!ImGui::BeginListBox(
-            "##methods", {-1.0f, ImGui::GetTextLineHeightWithSpacing() * float(std::min<size_t>(methods.size(), 9)) + 6.0f}))
-        return;
-    for (size_t i = 0; i < methods.size(); ++i) {
-        const std::string label = fmt::format("{}  {}", i < 9 ? std::to_string(i + 1) : std::string(" "), methods[i]->title);
-        if (ImGui::Selectable(label.c_str(), i == session.choice.current())) session.selectMethod(i);
-        tip(fmt::format("{}{}{}", methods[i]->sentence, *methods[i]->paper ? "\n\n" : "", methods[i]->paper).c_str());
+    if (session.recommendation) {
+        if (ImGui::Selectable(fmt::format("Recommended: {}", label(*session.recommended())).c_str(), session.usesRecommendation()))
+            session.useRecommendation(*session.recommendation);
+        tip("The most accurate setting whose time, measured at the start, is within the budget (--budget).");
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextWrapped("%s", session.recommendation->reason().c_str());
+        ImGui::PopStyleColor();
     }
-    ImGui::EndListBox();
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    if (ImGui::BeginTable(
+            "methods", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter, {-1.0f, line * 12.0f})) {
+        ImGui::TableSetupScrollFreeze(0, 1);
+        ImGui::TableSetupColumn("method");
+        const float width = ImGui::CalcTextSize("~000.00").x;
+        ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, width);
+        ImGui::TableSetupColumn("error", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("error").x);
+        ImGui::TableHeadersRow();
+        for (const auto& [group, name] : kGroups) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%s", name);
+            for (size_t i = 0; i < ao::methods().size(); ++i)
+                if (groupOf(*ao::methods()[i]) == group) methodRow(session, i);
+        }
+        ImGui::EndTable();
+    }
+    tip("GPU ms: of the method's passes when it was last shown; ~: from the present method's by cycles on a Radeon RX 6900 XT. error: mean "
+        "absolute error of visibility against ray tracing, in the toasters and the atrium.");
+    ImGui::TextWrapped("%s", session.choice.info().sentence);
 }
 
 }  // namespace
 
 void drawParameters(ao::Values& values) {
+    static ImGuiTextFilter search;
     const ao::MethodInfo& info = values.info();
-    const ao::Preset* current = presetOf(values);
+    const ao::Preset* current = presetsOf(values).preset;
     if (info.presets.size() > 0 && ImGui::BeginCombo("preset", current ? current->id : "(own)")) {
         for (const ao::Preset& preset : info.presets) {
-            if (ImGui::Selectable(preset.id, &preset == current)) values.apply(preset);
+            if (ImGui::Selectable(preset.id, &preset == current)) usePreset(values, preset);
             tip(preset.sentence);
         }
         ImGui::EndCombo();
@@ -59,7 +120,10 @@ void drawParameters(ao::Values& values) {
         }
         ImGui::EndCombo();
     }
+    if (info.parameters.size() > 0) search.Draw("search", -ImGui::CalcTextSize("search").x - ImGui::GetStyle().ItemInnerSpacing.x);
+    tip("Shows the parameters whose name or description contains this.");
     for (const ao::Parameter& parameter : info.parameters) {
+        if (!search.PassFilter(parameter.id) && !search.PassFilter(parameter.sentence)) continue;
         float value = values[parameter.id];
         const std::string label = *parameter.unit ? fmt::format("{} [{}]", parameter.id, parameter.unit) : parameter.id;
         if (parameter.choices.size() > 0) {
@@ -293,6 +357,9 @@ void drawMain(Session& session) {
         bool measuring = session.measures != nullptr;
         if (ImGui::Checkbox("measure", &measuring)) session.act(Action::measure, 0);
         tip("Measures noise, flicker and errors of the picture on every n-th pixel of each frame.");
+        ImGui::SameLine();
+        if (ImGui::Button("Copy command")) session.act(Action::copyCommand, 0);
+        tip("Copies the command that starts the game with this frame: scene, camera, time, method, settings.");
         factsPanel(session);
         ImGui::TextDisabled("F1: keys   Tab: hide panels");
         ImGui::PopItemWidth();

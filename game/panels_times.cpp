@@ -78,6 +78,10 @@ void drawTimes(const Session& session) {
     const app::Series& shown = pass == passes.end() ? times.gpu() : *pass;
     ImGui::Text("%s, the last %zu frames", pass == passes.end() ? "gpu frame" : shown.name.c_str(), shown.values.size());
     plot(shown, ImGui::GetFontSize() * 5.0f);
+    for (const app::Statistics::Spike& spike : times.spikes())
+        ImGui::TextUnformatted(fmt::format(
+            "spike of {:.1f} ms (median {:.1f}): {} took {:.1f} more", spike.milliseconds, spike.median, spike.cause, spike.growth)
+                .c_str());
     ImGui::Separator();
     if (!session.engine.device().caps().timestamps) ImGui::TextUnformatted("no GPU times: this device has no timestamps");
     bars(passes, chosen);

@@ -38,8 +38,9 @@ void Player::update(const app::Window& window, float seconds, float speed, const
         m_yaw += window.mouseMoved().x * kPerPixel;
         m_pitch -= window.mouseMoved().y * kPerPixel;
     }
-    m_yaw += axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) * kPerSecond * seconds;
-    m_pitch += axis(GLFW_KEY_UP, GLFW_KEY_DOWN) * kPerSecond * seconds;
+    const app::Window::Gamepad& pad = window.gamepad();
+    m_yaw += (axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + 2.0f * pad.right.x) * kPerSecond * seconds;
+    m_pitch += (axis(GLFW_KEY_UP, GLFW_KEY_DOWN) + 2.0f * pad.right.y) * kPerSecond * seconds;
     constexpr float kSteepest = 1.5f;
     m_pitch = std::clamp(m_pitch, -kSteepest, kSteepest);
 
@@ -48,8 +49,8 @@ void Player::update(const app::Window& window, float seconds, float speed, const
     // Walking speed is independent of the pitch.
     const glm::vec3 forward = forwardOf(m_yaw, walking ? 0.0f : m_pitch);
     const glm::vec3 right(std::cos(m_yaw), 0.0f, std::sin(m_yaw));
-    glm::vec3 wish = axis(GLFW_KEY_W, GLFW_KEY_S) * forward + axis(GLFW_KEY_D, GLFW_KEY_A) * right;
-    if (!walking) wish.y += axis(GLFW_KEY_E, GLFW_KEY_Q);
+    glm::vec3 wish = (axis(GLFW_KEY_W, GLFW_KEY_S) + pad.left.y) * forward + (axis(GLFW_KEY_D, GLFW_KEY_A) + pad.left.x) * right;
+    if (!walking) wish.y += axis(GLFW_KEY_E, GLFW_KEY_Q) + pad.raise - pad.lower;
     if (glm::length(wish) > 1.0f) wish = glm::normalize(wish);
     m_position += step * wish;
 

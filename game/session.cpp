@@ -40,7 +40,7 @@ Session::Session(const Options& given, Stage& stage_, Engine& engine_)
       m_lastMethod(given.choice.current()) {
     if (given.measure) act(Action::measure, 0);
     if (given.compare) other = *given.compare;
-    else if (other.current() == choice.current()) other.selectNext(1);
+    else other = choice, other.selectNext(1);
     m_follow = options.camera;
     following = stage.moves(options.camera);
     if (!following) m_follow.kind = CameraChoice::Kind::flythrough;  // what L follows
@@ -62,6 +62,22 @@ void Session::selectMethod(size_t index) {
     if (index >= Choice::count()) return say(fmt::format("there are {} methods", Choice::count()));
     choice.select(index);
     say(fmt::format("{}: {}", choice.info().id, choice.info().title));
+}
+
+void Session::useRecommendation(Recommendation made) {
+    m_recommended = candidates()[made.candidate];
+    choice.select(std::string(m_recommended->info().id));
+    choice.values() = *m_recommended;
+    recommendation = std::move(made);
+    say(recommendation->reason());
+}
+
+void Session::noteCost() {
+    constexpr size_t kSettled = 8;  // frames of the last pass
+    if (comparing || statistics.passes().empty() || m_switchIterations > 0) return;
+    for (const app::Series& pass : statistics.passes())
+        if (pass.name.starts_with(choice.info().id) && pass.values.size() < kSettled) return;
+    costs[choice.current()] = obscuranceCost(statistics);
 }
 
 void Session::scrub(float to) {
@@ -116,8 +132,11 @@ bool Session::dragDivider(const app::Window& window, bool onPanel) {
 }
 
 std::string Session::comparison() const {
-    return fmt::format("{} {} --falloff {} --split {:.3f}", asOptions(choice.values(), false), asOptions(other.values(), true),
-        ao::falloffText(choice.falloff), split);
+    std::vector<Argument> list = methodOptions(choice.values());
+    list.push_back({"--compare", compareText(other.values())});
+    list.push_back({"--falloff", ao::falloffText(choice.falloff)});
+    list.push_back({"--split", fmt::format("{:.3f}", split)});
+    return asText(list);
 }
 
 void Session::follow(bool on) {
@@ -193,15 +212,11 @@ void Session::act(Action action, int key) {
             break;
         case Action::nextPreset: {
             const auto& presets = choice.info().presets;
-            size_t next = 0;
-            for (size_t i = 0; i < presets.size(); ++i) {
-                ao::Values values(choice.info());
-                values.apply(presets[i]);
-                if (values == choice.values()) next = (i + 1) % presets.size();
-            }
             if (presets.size() == 0) break;
-            choice.values().apply(presets[next]);
-            say(fmt::format("{}: preset {}", choice.info().id, presets[next].id));
+            const ao::Preset* present = presetsOf(choice.values()).preset;
+            const ao::Preset& next = present ? presets[(size_t(present - &presets[0]) + 1) % presets.size()] : presets[0];
+            usePreset(choice.values(), next);
+            say(fmt::format("{}: preset {}", choice.info().id, next.id));
             break;
         }
         case Action::compare:
@@ -221,6 +236,7 @@ void Session::act(Action action, int key) {
             startReplay();
             break;
         case Action::measure: measures = measures ? nullptr : std::make_shared<Measures>(kMaxPending); break;
+        case Action::copyCommand: wantsCommand = true; break;
         case Action::pause: paused = !paused; break;
         case Action::stepBack: stepTime(-kFrame); break;
         case Action::stepForward: stepTime(kFrame); break;
@@ -319,6 +335,12 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.voxels.exact = false;  // voxels may be one frame late; rendering does not wait for them
     cut = false;
     return frame;
+}
+
+void Session::startMeasuring() {
+    switches.values.clear();
+    steady.values.clear();
+    m_frames = 0;
 }
 
 void Session::measured(double milliseconds) {

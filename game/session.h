@@ -10,6 +10,7 @@
 #include "keys.h"
 #include "measures.h"
 #include "player.h"
+#include "recommendation.h"
 #include "recording.h"
 #include "stage.h"
 
@@ -41,7 +42,7 @@ public:
     bool following = false;  // the camera moves by itself: flythrough, path or lens
     bool cut = true;         // camera or time of the next frame jumped: histories are discarded
     bool showOverlay = true, showKeys = false;
-    bool wantsScreenshot = false, wantsFullScreen = false, wantsQuit = false;
+    bool wantsScreenshot = false, wantsCommand = false, wantsFullScreen = false, wantsQuit = false;
     std::string notice;                  // one line, shown until noticeUntil
     double noticeUntil = 0.0;            // ms, of app::now()
     std::vector<std::string> passNames;  // of the last frame, for the view menu
@@ -56,7 +57,18 @@ public:
     void setComparing(bool on);
     // Moves the divider with the pointer while it is dragged; a drag starts outside the panels. True while it is dragged.
     bool dragDivider(const app::Window& window, bool onPanel);
-    std::string comparison() const;      // as command-line options
+    std::string comparison() const;              // as command-line options
+    std::vector<Argument> settings() const;      // that the next start takes over; no method if the recommended one is in use
+    std::string command(VkExtent2D size) const;  // starts the game with the present frame
+    // Of the device, measured at the start; empty if the command line or the settings chose a method.
+    std::optional<Recommendation> recommendation;
+    bool usesRecommendation() const { return recommendation && choice.values() == m_recommended; }
+    void useRecommendation(Recommendation made);
+    const std::optional<ao::Values>& recommended() const { return m_recommended; }
+    KnownFigures figures;
+    // Median GPU time of each method's obscurance when it was last shown, ms; 0: not yet. noteCost() follows the present one.
+    std::vector<double> costs = std::vector<double>(Choice::count());
+    void noteCost();
     void follow(bool on);                // on: flythrough or path; off: the player controls the camera from its current place
     std::shared_ptr<Measures> measures;  // null: measuring is off
     // Why there is no reference for a reading, or the command that traces it.
@@ -73,6 +85,7 @@ public:
     // Milliseconds of loop iterations: of those right after a method switch, and of all others.
     app::Series switches{"switch", {}}, steady{"steady", {}};
     void measured(double milliseconds);
+    void startMeasuring();  // forgets these
 
 private:
     void stepTime(float seconds);
@@ -82,6 +95,7 @@ private:
     scene::Camera m_camera;
     CameraChoice m_follow;
     size_t m_lastMethod;
+    std::optional<ao::Values> m_recommended;
     uint32_t m_switchIterations = 0;  // next loop iterations that count towards a switch
     uint64_t m_frames = 0;
 };

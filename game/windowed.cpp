@@ -1,6 +1,7 @@
 // The windowed game: its loop, screenshots and shader reload.
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,14 +24,23 @@ constexpr double kIdleWait = 0.1;       // seconds, while the window has no imag
 
 class Game {
 public:
-    Game(const Options& options, app::Window& window, app::Presenter& presenter, Engine& engine, Stage& stage)
-        : m_options(options), m_window(window), m_presenter(presenter), m_engine(engine), m_session(options, stage, engine) {}
+    // `begun`: when the program started, ms of app::now().
+    Game(const Options& options, app::Window& window, app::Presenter& presenter, Engine& engine, Stage& stage, double begun)
+        : m_options(options),
+          m_window(window),
+          m_presenter(presenter),
+          m_engine(engine),
+          m_session(options, stage, engine),
+          m_begun(begun) {}
 
     void run();
+    Session& session() { return m_session; }
 
 private:
     void drawFrame();
     void reload();
+    void remember();
+    void warmUp();
     void takeScreenshot(graph::Graph& graph, graph::ImageId picture, fs::path file, bool last);
     void makeOverlay(VkFormat format);
     const Options& m_options;
@@ -41,16 +51,20 @@ private:
     std::unique_ptr<app::Overlay> m_overlay;
     std::vector<std::string> m_shaderErrors;  // as last printed
     uint64_t m_firstFrame = 0;                // timings of earlier frames (warm-up) are not plotted
+    // Methods that have not been run yet: one after each of the first pictures, so that no switch to one is a hitch.
+    std::vector<const ao::MethodInfo*> m_cold;
     uint64_t m_shown = 0;
     bool m_overlayTried = false;
     bool m_idle = false;  // the last iteration drew nothing
+    bool m_announced = false;
     double m_lastFrame = 0.0;
+    double m_begun;  // when the program started, ms
 };
 
 void Game::makeOverlay(VkFormat format) {
     m_overlayTried = true;
     std::string error;
-    m_overlay = app::Overlay::create(m_engine.device(), m_window, format, error);
+    m_overlay = app::Overlay::create(m_engine.device(), m_window, format, m_options.uiScale, error);
     if (!m_overlay) fmt::print(stderr, "obscura: {}; the game continues without panels\n", error);
 }
 
@@ -77,6 +91,7 @@ void Game::drawFrame() {
     m_engine.expect(frames.begin(graph), "waiting for a frame");
     m_engine.capture().collect();
     if (graph.timings().frame >= m_firstFrame) m_session.statistics.add(graph.timings());
+    m_session.noteCost();
     m_idle = !m_presenter.acquire(frames.slot());
     if (m_idle) return m_engine.expect(frames.end(graph), "idling");
 
@@ -94,6 +109,14 @@ void Game::drawFrame() {
     if (m_session.wantsScreenshot)
         takeScreenshot(graph, outputs.color, app::freshName((m_session.options.out / "obscura").string(), ".png"), false);
     m_session.wantsScreenshot = false;
+    if (m_session.wantsCommand) {
+        const std::string command = m_session.command(m_presenter.size());
+        glfwSetClipboardString(m_window.handle(), command.c_str());
+        m_session.say("copied: " + command);
+        fmt::print("{}\n", command);
+        std::fflush(stdout);
+    }
+    m_session.wantsCommand = false;
     if (last && !m_options.screenshot.empty()) takeScreenshot(graph, outputs.color, m_options.screenshot, true);
     if (!m_overlayTried) makeOverlay(graph.desc(outputs.color).format);
     if (m_overlay) {
@@ -120,8 +143,35 @@ void Game::reload() {
     std::fflush(stdout);
 }
 
+void Game::remember() {
+    if (m_options.settings.empty()) return;
+    try {
+        std::vector<Argument> settings = m_session.settings();
+        if (m_window.isFullScreen()) settings.push_back({"--full-screen", ""});
+        else settings.push_back({"--size", fmt::format("{:.0f}x{:.0f}", m_window.screenSize().x, m_window.screenSize().y)});
+        writeSettings(m_options.settings, settings);
+    } catch (const app::Complaint& complaint) {
+        fmt::print(stderr, "obscura: the settings are not remembered: {}\n", complaint.what());
+    }
+}
+
+void Game::warmUp() {
+    constexpr uint64_t kFirst = 2;  // pictures before the first one
+    if (m_cold.empty() || m_shown < kFirst) return;
+    const ao::MethodInfo& info = *m_cold.back();
+    m_cold.pop_back();
+    m_session.say(fmt::format("preparing the other methods: {}", info.id));
+    m_engine.warmUp(m_options, m_session.stage, info);
+    m_firstFrame = m_engine.device().frame() + 1;
+    m_session.cut = true;
+    if (m_cold.empty()) m_session.startMeasuring();
+}
+
 void Game::run() {
     double lastReload = 0.0;
+    m_cold.assign(ao::methods().begin(), ao::methods().end());
+    std::erase(m_cold, &m_session.choice.info());
+    std::reverse(m_cold.begin(), m_cold.end());
     m_firstFrame = m_engine.device().frame() + 1;
     m_lastFrame = app::now();
     while (!m_window.closing()) {
@@ -146,7 +196,12 @@ void Game::run() {
             reload();
         }
         const bool wasIdle = m_idle;
+        warmUp();
         drawFrame();
+        if (m_shown == 1 && !std::exchange(m_announced, true)) {
+            fmt::print("first picture after {:.2f} s. F1 shows the keys.\n", (app::now() - m_begun) * 1e-3);
+            std::fflush(stdout);
+        }
         if (!m_idle && !wasIdle) {
             // The whole iteration: with frames in flight a hitch may show in a later one, at its wait.
             m_session.statistics.addCpu(m_engine.frames().recordMilliseconds(), since);
@@ -154,6 +209,7 @@ void Game::run() {
         }
     }
     if (m_session.recorder.running()) m_session.stopRecording();
+    remember();
     if (m_session.comparing) fmt::print("compared: {}\n", m_session.comparison());
     m_engine.expect(m_engine.frames().wait(), "finishing the last frame");
     m_engine.capture().collect(true);
@@ -165,6 +221,7 @@ void Game::run() {
 }  // namespace
 
 int playWindowed(const Options& options) {
+    const double begun = app::now();
     if (!options.out.empty()) app::expectFolder(options.out);
     if (!options.screenshot.empty()) app::expectWritable(options.screenshot);
     std::string error;
@@ -182,16 +239,30 @@ int playWindowed(const Options& options) {
         window.reset();
         return runWithoutWindow(options, error);
     }
-    engine->prepare(options, stage, true);
-    fmt::print("{}: {} on {}, {} methods; started in {:.2f} s (pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}). F1 shows the keys.\n",
-        "Obscura", stage.info.title, engine->device().caps().deviceName, Choice::count(), engine->started.total(),
-        engine->started.pipelines, engine->started.warmUp, engine->started.cacheFound ? "found" : "not found");
+    const bool recommends = !options.namesMethod && !options.switchTest;
+    engine->prepare(options, stage, recommends ? std::vector<const ao::MethodInfo*>() : preparedMethods(options));
+    std::optional<Recommendation> recommendation;
+    if (recommends) {
+        constexpr double kSeconds = 1.0;
+        const double budget = options.budget.value_or(engine->device().caps().software ? kSoftwareBudget : kBudget);
+        recommendation = recommend(engine->costs(options, stage, candidates(), budget, kSeconds), budget);
+    }
+    fmt::print(
+        "Obscura: {} on {}, {} methods; started in {:.2f} s (device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline "
+        "cache {})\n",
+        stage.info.title, engine->device().caps().deviceName, Choice::count(), engine->started.total(), engine->started.device,
+        engine->started.scene, engine->started.pipelines, engine->started.warmUp, engine->started.cacheFound ? "found" : "not found");
     std::fflush(stdout);
     if (options.switchTest) {
         switchTest(options, *engine, stage);
     } else {
         if (options.fullScreen) window->toggleFullScreen();
-        Game(options, *window, *presenter, *engine, stage).run();
+        Game game(options, *window, *presenter, *engine, stage, begun);
+        if (recommendation) {
+            fmt::print("recommended: {}\n", recommendation->reason());
+            game.session().useRecommendation(std::move(*recommendation));
+        }
+        game.run();
     }
     const int code = reportValidation(options, *engine);
     presenter.reset();

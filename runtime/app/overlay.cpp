@@ -1,6 +1,7 @@
 #include "app/overlay.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <imgui.h>
 
@@ -34,7 +35,10 @@ bool uploadFonts(gpu::Device& device) {
 
 }  // namespace
 
-std::unique_ptr<Overlay> Overlay::create(gpu::Device& device, Window& window, VkFormat format, std::string& error) {
+std::unique_ptr<Overlay> Overlay::create(
+    gpu::Device& device, Window& window, VkFormat format, std::optional<float> wantedScale, std::string& error) {
+    const float ofHeight = std::floor(float(window.size().height) / 540.0f) * 0.5f;
+    const float scale = wantedScale.value_or(std::max(window.scale(), ofHeight));
     std::unique_ptr<Overlay> overlay(new Overlay(device));
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // no imgui.ini
@@ -43,9 +47,9 @@ std::unique_ptr<Overlay> Overlay::create(gpu::Device& device, Window& window, Vk
     style.WindowRounding = 4.0f;
     style.FrameRounding = 2.0f;
     style.Colors[ImGuiCol_WindowBg].w = 0.86f;
-    style.ScaleAllSizes(window.scale());
+    style.ScaleAllSizes(scale);
     ImFontConfig font;
-    font.SizePixels = 13.0f * window.scale();
+    font.SizePixels = std::round(13.0f * scale);
     ImGui::GetIO().Fonts->AddFontDefault(&font);
 
     error = "Dear ImGui could not be initialised on this device";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,10 @@ namespace obscura::app {
 
 class Overlay {
 public:
-    // Null on failure; `error` is then one line. `format`: of the images that it draws into.
-    static std::unique_ptr<Overlay> create(gpu::Device& device, Window& window, VkFormat format, std::string& error);
+    // Null on failure; `error` is then one line. `format`: of the images that it draws into. `scale`: of text and panels; empty: the
+    // monitor's, at least so much that text keeps its share of the window's height above 1080 px.
+    static std::unique_ptr<Overlay> create(
+        gpu::Device& device, Window& window, VkFormat format, std::optional<float> scale, std::string& error);
     ~Overlay();  // waits for the device
     Overlay(const Overlay&) = delete;
 

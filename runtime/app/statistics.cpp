@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace obscura::app {
 
@@ -28,9 +30,25 @@ void Statistics::push(Series& series, double value) const {
     series.values.push_back(value);
 }
 
+bool Statistics::isSpike(const Series& series, double value) {
+    constexpr size_t kKnown = 16;   // values that make a median
+    constexpr double kLeast = 0.5;  // ms above the median
+    if (series.values.size() < kKnown) return false;
+    const double median = series.median();
+    return value > 1.5 * median && value > median + kLeast;
+}
+
+void Statistics::add(Spike spike) {
+    constexpr size_t kSpikes = 6;
+    if (m_spikes.size() == kSpikes) m_spikes.pop_front();
+    m_spikes.push_back(std::move(spike));
+}
+
 void Statistics::add(const graph::Timings& timings) {
     if (timings.passes.empty() || timings.frame == m_last) return;
     m_last = timings.frame;
+    std::optional<Spike> spike;
+    if (isSpike(m_gpu, timings.milliseconds)) spike = {timings.milliseconds, m_gpu.median(), "", 0.0};
     push(m_gpu, timings.milliseconds);
     std::vector<Series> passes;
     for (const gpu::PassTime& time : timings.passes) {
@@ -44,10 +62,18 @@ void Statistics::add(const graph::Timings& timings) {
         passes.push_back(known != m_passes.end() ? std::move(*known) : Series{time.name, {}});
         push(passes.back(), time.milliseconds);
     }
+    if (spike) {
+        for (const Series& pass : passes) {
+            const double growth = pass.values.back() - (pass.values.size() > 1 ? pass.median() : 0.0);
+            if (growth > spike->growth) spike->growth = growth, spike->cause = pass.name;
+        }
+        add(std::move(*spike));
+    }
     m_passes = std::move(passes);
 }
 
 void Statistics::addCpu(double recording, double frame) {
+    if (isSpike(m_cpu, recording)) add({recording, m_cpu.median(), "recording", recording - m_cpu.median()});
     push(m_cpu, recording);
     push(m_frame, frame);
 }
@@ -64,6 +90,7 @@ void Statistics::clear() {
     m_gpu.values.clear();
     m_cpu.values.clear();
     m_frame.values.clear();
+    m_spikes.clear();
 }
 
 }  // namespace obscura::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,14 @@ public:
     void addCpu(double recording, double frame);  // milliseconds
     void clear();
 
+    // A frame that took far longer than the median before it, and the pass (or "recording", on the CPU) that grew most.
+    struct Spike {
+        double milliseconds = 0.0, median = 0.0;  // of the GPU's frame, or of recording
+        std::string cause;
+        double growth = 0.0;  // ms above the cause's own median
+    };
+    const std::deque<Spike>& spikes() const { return m_spikes; }  // the last ones, oldest first
+
     const std::vector<Series>& passes() const { return m_passes; }  // of the newest frame, in its order
     double total(std::string_view prefix) const;                    // sum of the medians of passes whose names start with `prefix`
     const Series& gpu() const { return m_gpu; }                     // first to last timestamp
@@ -41,9 +50,12 @@ public:
 
 private:
     void push(Series& series, double value) const;
+    static bool isSpike(const Series& series, double value);
+    void add(Spike spike);
     size_t m_keep;
     uint64_t m_last = 0;
     std::vector<Series> m_passes;
+    std::deque<Spike> m_spikes;
     Series m_gpu{"gpu", {}}, m_cpu{"cpu", {}}, m_frame{"frame", {}};
 };
 

@@ -1,6 +1,7 @@
 #include "app/window.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/complaint.h"
 
@@ -111,6 +112,29 @@ void Window::poll() {
     glfwGetCursorPos(m_window, &mouse.x, &mouse.y);
     m_moved = glm::vec2(mouse - m_mouse);
     m_mouse = mouse;
+    pollGamepad();
+}
+
+void Window::pollGamepad() {
+    m_gamepad = {};
+    GLFWgamepadstate state{};
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick)
+        if (glfwGetGamepadState(joystick, &state)) break;
+    const auto axis = [&](int index) {
+        constexpr float kDeadZone = 0.15f;
+        const float value = std::clamp(state.axes[index], -1.0f, 1.0f);
+        return std::copysign(std::max(std::fabs(value) - kDeadZone, 0.0f) / (1.0f - kDeadZone), value);
+    };
+    // A trigger's axis rests at -1; a missing gamepad's is 0.
+    const auto trigger = [&](int index) { return std::max(axis(index), 0.0f); };
+    m_gamepad.left = {axis(GLFW_GAMEPAD_AXIS_LEFT_X), -axis(GLFW_GAMEPAD_AXIS_LEFT_Y)};
+    m_gamepad.right = {axis(GLFW_GAMEPAD_AXIS_RIGHT_X), -axis(GLFW_GAMEPAD_AXIS_RIGHT_Y)};
+    m_gamepad.lower = trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER);
+    m_gamepad.raise = trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER);
+    for (int i = 0; i <= GLFW_GAMEPAD_BUTTON_LAST; ++i) {
+        if (state.buttons[i] && !m_buttons[i]) m_gamepad.pressed.push_back(i);
+        m_buttons[i] = state.buttons[i];
+    }
 }
 
 void Window::waitEvents(double seconds) { glfwWaitEventsTimeout(seconds); }
@@ -123,7 +147,7 @@ void Window::captureMouse(bool on) {
 }
 
 void Window::toggleFullScreen() {
-    if (glfwGetWindowMonitor(m_window)) {
+    if (isFullScreen()) {
         glfwSetWindowMonitor(m_window, nullptr, m_restore[0], m_restore[1], m_restore[2], m_restore[3], GLFW_DONT_CARE);
         return;
     }

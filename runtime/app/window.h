@@ -41,11 +41,19 @@ public:
         glm::vec2 at;  // screen units, from the upper left corner
     };
     const std::vector<Click>& clicked() const { return m_clicked; }  // buttons that went down since the last poll
-    glm::vec2 mouse() const { return m_mouse; }                      // screen units
-    glm::vec2 screenSize() const;                                    // screen units, at least 1
-    glm::vec2 mouseMoved() const { return m_moved; }                 // pixels since the last poll
-    void captureMouse(bool on);                                      // hides the pointer; its movement is then unbounded
+    // The first gamepad; without one its sticks rest. Axes without their dead zone, -1 to 1, up and right positive.
+    struct Gamepad {
+        glm::vec2 left{0.0f}, right{0.0f};  // sticks
+        float lower = 0.0f, raise = 0.0f;   // triggers, 0 to 1
+        std::vector<int> pressed;           // GLFW codes of buttons that went down since the last poll
+    };
+    const Gamepad& gamepad() const { return m_gamepad; }
+    glm::vec2 mouse() const { return m_mouse; }       // screen units
+    glm::vec2 screenSize() const;                     // screen units, at least 1
+    glm::vec2 mouseMoved() const { return m_moved; }  // pixels since the last poll
+    void captureMouse(bool on);                       // hides the pointer; its movement is then unbounded
     bool mouseCaptured() const { return m_captured; }
+    bool isFullScreen() const { return glfwGetWindowMonitor(m_window) != nullptr; }
     void toggleFullScreen();  // on the monitor that shows most of the window; without one it has no effect
     GLFWwindow* handle() const { return m_window; }
 
@@ -58,6 +66,9 @@ private:
     glm::dvec2 m_mouse{0.0};
     glm::vec2 m_moved{0.0f};
     bool m_captured = false;
+    Gamepad m_gamepad;
+    unsigned char m_buttons[GLFW_GAMEPAD_BUTTON_LAST + 1] = {};  // of the gamepad, at the last poll
+    void pollGamepad();
     int m_restore[4] = {};  // x, y, width, height before full screen
 };
 

@@ -40,6 +40,7 @@ Ran run(const std::vector<std::string>& arguments, const char* program) {
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
         ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+        ::setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
         ::execv(program, argv.data());
         ::_exit(127);
     }

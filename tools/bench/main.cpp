@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
     if (!options->gpuCost.empty()) return countGpuCost(*options);
     // Files are checked before anything is measured.
     if (!options->table.empty()) withTables(textOf(options->table), nullptr, options->table), app::expectWritable(options->table);
+    if (!options->summary.empty()) app::expectWritable(options->summary);
     std::optional<Results> before;
     if (!options->compare.empty()) before = readResults(options->compare);
 
@@ -60,6 +61,7 @@ int run(int argc, char** argv) {
         fmt::print("{}\n", (options->out / "bench.html").string());
     }
     if (!options->table.empty()) app::writeFile(options->table, withTables(textOf(options->table), &results, options->table));
+    if (!options->summary.empty()) app::writeFile(options->summary, summary(results));
     if (before) {
         Tolerances tolerances;
         tolerances.time = options->tolerance;

@@ -131,6 +131,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     cli.add_option("--table", options.table,
         "Markdown file; replaces its tables: of times between <!-- bench: begin --> and <!-- bench: end -->, of GPU costs between "
         "<!-- gpu cost: begin --> and <!-- gpu cost: end -->");
+    cli.add_option("--summary", options.summary, "JSON file of each preset's cycles, error and flicker, which the game's menu shows");
     cli.add_option(
         "--compare", options.compare, "bench.json of an earlier run: print ratios with confidence intervals, fail on regressions");
     cli.add_option(

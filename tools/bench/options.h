@@ -24,6 +24,7 @@ struct Options {
     std::filesystem::path renewGpuCost;  // a baseline to write
     bool withGpuCost = true;             // counted beside the measurement
     std::filesystem::path table;         // a Markdown file with markers of tables.h
+    std::filesystem::path summary;       // a file for tables.h's summary()
     double tolerance = 0.05;             // relative growth of times allowed in addition to their confidence interval
     bool absolute = false;               // compare milliseconds
     bool again = false;                  // measure again what an earlier run measured

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/complaint.h"
+#include "app/statistics.h"
 #include "front.h"
 #include "obscura/ao.h"
 #include "scaling.h"
@@ -24,7 +25,7 @@ void addNew(std::vector<T>& list, const T& value) {
 
 // One candidate over all shots of a size with a falloff.
 struct Line {
-    std::string label, method;
+    std::string label, method, preset;
     bool plain = false, baseline = false, best = false;  // default preset; best: on the Pareto front
     double logTime = 0.0, p95 = 0.0, bytes = 0.0, world = 0.0, screen = 0.0, flicker = 0.0;
     size_t rows = 0, worlds = 0, screens = 0, flickers = 0;
@@ -56,8 +57,8 @@ std::vector<Table> tablesOf(const Results& results) {
             if (fmt::format("{} x {}", row.width, row.height) != table.size || row.falloff != table.falloff) continue;
             auto line = std::find_if(table.lines.begin(), table.lines.end(), [&](const Line& l) { return l.label == row.label(); });
             if (line == table.lines.end()) {
-                line = table.lines.insert(
-                    table.lines.end(), Line{row.label(), row.method, row.preset == "default" && row.settings.empty(), row.baseline});
+                line = table.lines.insert(table.lines.end(), Line{row.label(), row.method, row.settings.empty() ? row.preset : "",
+                                                                 row.preset == "default" && row.settings.empty(), row.baseline});
                 line->scenes.assign(table.places.size(), "");
             }
             ++line->rows;
@@ -246,6 +247,24 @@ std::string costTable(const Results& results) {
                "cheaper and more accurate. (layers): read where `depth_layers` says so. Missing normals are reconstructed; any method but "
                "`hybrid` takes voxels with `offscreen`, and motion with `temporal`.",
                results.rays, table.size, results.flickerFrames)) +
+           "\n";
+}
+
+std::string summary(const Results& results) {
+    const std::vector<Table> tables = tablesOf(results);
+    if (tables.empty()) throw app::Complaint("--summary: nothing was measured");
+    const Table& table = tables.front();
+    Json list = Json::array();
+    for (const Line& line : table.lines) {
+        if (line.preset.empty() || !line.worlds) continue;
+        Json entry{{"method", line.method}, {"preset", line.preset}, {"eA", app::digits(line.world / double(line.worlds), 3)}};
+        if (line.flickers) entry["flicker"] = app::digits(line.flicker / double(line.flickers), 3);
+        if (line.gpu) entry["cycles"] = std::round(line.gpu->cycles);
+        list.push_back(entry);
+    }
+    return Json{{"about", "Shown by the game's menu of methods. Renew: tools/renew"}, {"scenes", table.places}, {"size", table.size},
+               {"falloff", table.falloff}, {"chip", results.gpu}, {"methods", list}}
+               .dump(1) +
            "\n";
 }
 

@@ -26,6 +26,8 @@ std::string citation(const std::string& paper);
 std::string briefTable(const Results& results);
 // The same by cycles on a GPU, cheapest first, with floors, registers and waves instead of times and memory.
 std::string costTable(const Results& results);
+// Cycles, error and flicker of every preset without own settings, of the first size and falloff, as JSON: what the game's menu shows.
+std::string summary(const Results& results);
 // `text` with the tables between its markers replaced; results: null to check it only. Throws app::Complaint if it has no markers, or those
 // of costs and the results have none.
 std::string withTables(const std::string& text, const Results* results, const std::filesystem::path& file);
