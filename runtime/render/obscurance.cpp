@@ -25,7 +25,7 @@ bool Obscurance::readsVolume(const FrameOptions& options) {
 namespace {
 
 // Part 2: the frame as the library wants it described. Depth convention and field of view are read from the projection.
-ao::Frame frameOf(const Obscurance::Inputs& in, uint64_t index) {
+ao::Frame frameOf(const Obscurance::Inputs& in) {
     ao::Frame frame;
     frame.size = in.size;
     frame.guard = in.guard;
@@ -35,7 +35,11 @@ ao::Frame frameOf(const Obscurance::Inputs& in, uint64_t index) {
     frame.depthKind = ao::DepthKind::device;  // the depth buffer as it is
     frame.normalKind = ao::NormalKind::eye;
     frame.normalEncoding = ao::NormalEncoding::octahedral32;
-    frame.index = index;  // rotates the samples of methods with `temporal`
+    frame.index = in.index;  // rotates the samples of methods with `temporal`
+    // The projection holds the jitter of temporal anti-aliasing, the motion vectors do not: the library is told how far the image is moved,
+    // so that its own history stays on the surface.
+    frame.jitter[0] = in.camera.jitter.x;
+    frame.jitter[1] = in.camera.jitter.y;
     frame.volume = in.volume;
     return frame;
 }
@@ -53,7 +57,7 @@ ao::Sources sourcesOf(const Obscurance::Inputs& in) {
 // Part 3: the passes. They follow the G-buffer and precede lighting. Sides A and B prepare their own inputs and have their own history, so
 // the passes of one take the time that they take without the other.
 Obscurance::Result Obscurance::add(graph::Graph& graph, const Inputs& inputs, const FrameOptions& options, Views& views) {
-    const ao::Frame frame = frameOf(inputs, m_frame++);
+    const ao::Frame frame = frameOf(inputs);
     const ao::Sources sources = sourcesOf(inputs);
     const auto run = [&](ao::Library& library, ao::Values values) {
         const bool wantsBent = values.bentNormals || options.bentNormals || options.view == View::bentNormals;
@@ -99,7 +103,6 @@ ao::Library& Obscurance::otherLibrary() {
 void Obscurance::discardHistory() {
     m_library.discardHistory();
     if (m_other) m_other->discardHistory();
-    m_frame = 0;
 }
 
 }  // namespace obscura::render

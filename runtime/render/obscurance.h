@@ -26,6 +26,7 @@ public:
     struct Inputs {
         VkExtent2D size{}, guard{};  // px; guard band: on each side
         CameraPair camera;
+        uint64_t index = 0;                     // of the frame, since the last cut
         graph::ImageId depth, normals, motion;  // `size`; of the G-buffer
         ao::LayerInputs layers;                 // optional
         graph::BufferId voxels;                 // optional: bits of `volume`
@@ -45,7 +46,6 @@ private:
     const gpu::ShaderLibrary& m_shaders;
     ao::Library m_library;
     std::unique_ptr<ao::Library> m_other;  // null until used
-    uint64_t m_frame = 0;                  // since the last cut
 };
 
 }  // namespace obscura::render

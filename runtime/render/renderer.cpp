@@ -1,5 +1,5 @@
-// The frame: updates models and poses, then adds the passes in order: deform, G-buffer, obscurance, shadow, lighting, blending, tone
-// mapping or a view.
+// The frame: updates models and poses, then adds the passes in order: deform, G-buffer, obscurance, shadow, lighting, blending,
+// anti-aliasing, tone mapping or a view.
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -7,6 +7,9 @@
 #include <cstring>
 #include <map>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "render/antialias.h"
 #include "render/gbuffer.h"
 #include "render/layers.h"
 #include "render/lighting.h"
@@ -32,11 +35,13 @@ struct Renderer::Impl {
     Obscurance obscurance;
     Shadow shadow;
     Lighting lighting;
+    Antialias antialias;
     Views views;
     VoxelVolume voxels;
 
     DrawList draws;  // of the frame being recorded
     std::optional<scene::Camera> lastCamera;
+    uint64_t frame = 0;  // since the last cut
     SceneFacts facts;
 
     const ModelGpu* find(const scene::Model* model) const {
@@ -44,7 +49,7 @@ struct Renderer::Impl {
         return found == models.end() ? nullptr : found->second.get();
     }
     Status load(const scene::World& world);
-    CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const;
+    CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, const glm::vec2& jitter, bool cut) const;
     void count(const scene::World& world);
 };
 
@@ -82,6 +87,7 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
     if (status == Status::ok) status = LayersPass::create(device, shaders, impl.layers);
     if (status == Status::ok) status = Shadow::create(device, shaders, impl.shadow);
     if (status == Status::ok) status = Lighting::create(device, shaders, impl.lighting);
+    if (status == Status::ok) status = Antialias::create(device, shaders, impl.antialias);
     if (status == Status::ok) status = Views::create(device, shaders, impl.views);
     if (status == Status::ok) status = VoxelVolume::create(device, shaders, impl.voxels);
     if (status == Status::ok) return renderer;
@@ -132,7 +138,8 @@ Status Renderer::Impl::load(const scene::World& world) {
     return worst;
 }
 
-CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const {
+CameraPair Renderer::Impl::cameras(
+    const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, const glm::vec2& jitter, bool cut) const {
     const glm::vec2 whole(float(size.width), float(size.height)), shown(float(visible.width), float(visible.height));
     CameraPair pair;
     pair.view = camera.view();
@@ -141,6 +148,11 @@ CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size,
     const scene::Camera& before = cut || !lastCamera ? camera : *lastCamera;
     pair.previousView = before.view();
     pair.previousProjection = before.projection(whole, shown);
+    // Last frame's projection with this frame's jitter: motion vectors are free of it.
+    const glm::mat4 moved = glm::translate(glm::mat4(1.0f), glm::vec3(2.0f * jitter / whole, 0.0f));
+    pair.projection = moved * pair.projection;
+    pair.previousProjection = moved * pair.previousProjection;
+    pair.jitter = jitter;
     pair.eye = camera.eye;
     pair.orthographic = camera.orthoHalfHeight > 0.0f;
     return pair;
@@ -163,10 +175,16 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     Impl& impl = *m_impl;
     impl.load(world);
     const bool cut = options.cut || !impl.lastCamera;
-    if (cut) impl.obscurance.discardHistory();
+    if (cut) {
+        impl.obscurance.discardHistory();
+        impl.frame = 0;
+    }
+    const uint64_t index = impl.frame++;
+    const bool antialiases = options.antialiasing == Antialiasing::temporal && options.view == View::final && options.sampleStep == 0;
     const VkExtent2D guard = guardOf(options);
     const VkExtent2D size{options.visible.width + 2 * guard.width, options.visible.height + 2 * guard.height};
-    const CameraPair camera = impl.cameras(options.camera, size, options.visible, cut);
+    const CameraPair camera =
+        impl.cameras(options.camera, size, options.visible, antialiases ? antialiasJitter(index) : glm::vec2(0.0f), cut);
     impl.lastCamera = options.camera;
 
     impl.actors.update(world, options.time, cut, [&](const scene::Model* model) { return impl.find(model); });
@@ -179,7 +197,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     const graph::BufferId items = graph.upload("draw items", impl.draws.items.data(), impl.draws.items.size() * sizeof(shared::DrawItem));
     const GBuffer g = impl.gbuffer.add(graph, size, frame, items, impl.draws, posed, impl.materials);
 
-    Obscurance::Inputs in{size, guard, camera, g.depth, g.geometric, g.motion, {}, {}, {}};
+    Obscurance::Inputs in{size, guard, camera, index, g.depth, g.geometric, g.motion, {}, {}, {}};
     if (const ao::LayerMode layers = Obscurance::layersFor(options); layers != ao::LayerMode::none)
         in.layers = impl.layers.add(graph, g, frame, items, impl.draws, posed, impl.materials, layers, options.layerForm);
     if (Obscurance::readsVolume(options)) {
@@ -199,6 +217,7 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     out.motion = g.motion;
     out.voxels = in.voxels;
     out.layers = in.layers;
+    if (!antialiases) impl.antialias.skip(graph);
     if (options.sampleStep && out.linearDepth) out.samples = impl.views.samples(graph, out, options.sampleStep, view);
     if (options.view == View::final || options.view == View::pass) {
         Lighting::Inputs lit;
@@ -209,7 +228,6 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
         lit.view = view;
         lit.eyeFromWorld = camera.view;
         lit.sun = options.sun;
-        lit.exposure = options.exposure;
         lit.frame = frame;
         lit.items = items;
         lit.draws = &impl.draws;
@@ -220,7 +238,12 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
         request.reach = options.shadowReach;
         request.skipMasked = options.skipMasked;
         lit.shadow = impl.shadow.add(graph, request, posed, impl.materials);
-        if (lit.shadow.image && lit.linearDepth) out.color = impl.lighting.add(graph, lit, impl.materials);
+        if (lit.shadow.image && lit.linearDepth) {
+            graph::ImageId radiance = impl.lighting.add(graph, lit, impl.materials);
+            if (antialiases)
+                radiance = impl.antialias.add(graph, {radiance, out.linearDepth, g.motion, view, camera, options.exposure, cut});
+            out.color = impl.lighting.toneMap(graph, radiance, view, options.exposure);
+        }
         if (options.view == View::pass) {
             const graph::ImageId shown = impl.views.addPass(graph, options.passView, view);
             if (shown) out.color = shown;
