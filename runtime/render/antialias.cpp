@@ -49,7 +49,6 @@ graph::ImageId Antialias::add(graph::Graph& graph, const Inputs& in) {
     block.visible = view.visible;
     block.guard = view.guard;
     block.exposure = in.exposure;
-    block.valid = history.valid ? 1 : 0;
     graph.pass("antialias", m_resolve)
         .read(in.lit)
         .read(in.linearDepth)

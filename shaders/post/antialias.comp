@@ -94,10 +94,11 @@ void main() {
     float expected = sky ? kFarthest : min(depth * previous.z + rows[2].w, kFarthest);
 
     vec2 size = vec2(block.visible), from = vec2(at) + 0.5 + motion;
+    // A history that is not valid is cleared: its depth is 0.
     bool inside = all(greaterThanEqual(from, vec2(0.0))) && all(lessThanEqual(from, size));
     float farthest, frames;
     unpackEach(textureGather(history, from / size, 3), farthest, frames);
-    if (block.valid == 0u || !inside || farthest < kOccluded * expected) {
+    if (!inside || farthest < kOccluded * expected) {
         imageStore(result, at, vec4(centre, packed(depth, 0.0)));
         return;
     }

@@ -11,7 +11,7 @@ struct AntialiasBlock {
     uvec2 visible;          // px
     uvec2 guard;            // px before the visible part
     float exposure;
-    uint valid;             // 1: there is a history
+    uint unused[3];
 };
 OBSCURA_SHARED_SIZE(AntialiasBlock, 80);
 

@@ -144,6 +144,39 @@ TEST_F(AntialiasTest, movedObjectLeavesNoTrail) {
     EXPECT_LE(worst, 3.0) << "levels of 255 outside of what lies around the pixel";
 }
 
+// Pixels that show what the cube hid hold this frame's sample alone, as in a renderer without history.
+TEST_F(AntialiasTest, uncoveredPixelsBeginAnew) {
+    RenderFixture with, later;
+    scene::World world;
+    scene::Instance cube = instanceOf(turningCube(), {0.0f, 0.2f, 1.0f});
+    cube.animation = -1;
+    world.add(instanceOf(floorPlate(), {0, -0.6f, 0}));
+    world.add(cube);
+    Picture before, after, anew;
+    for (int i = 0; i < 6; ++i) {
+        if (i == 5) world.instances()[1].placement = glm::translate(glm::mat4(1.0f), glm::vec3(3.0f, 0.2f, -1.0f));
+        before = after;
+        after = with.render(world, options(kTemporal));
+        anew = later.render(world, options(i == 5 ? kTemporal : kNone));
+    }
+    size_t uncovered = 0, same = 0;
+    for (uint32_t y = 3; y < 117; ++y)
+        for (uint32_t x = 3; x < 157; ++x) {
+            bool was = true;  // depth is reversed: larger is nearer
+            for (uint32_t v = y - 2; v <= y + 2; ++v)
+                for (uint32_t u = x - 2; u <= x + 2; ++u) {
+                    const float then = before.depth.at<float>(u + before.guard.width, v + before.guard.height);
+                    was = was && then > 1.25f * after.depth.at<float>(u + after.guard.width, v + after.guard.height);
+                }
+            if (!was) continue;
+            ++uncovered;
+            same += level(after.color, x, y) == level(anew.color, x, y);
+        }
+    std::printf("  %zu uncovered pixels, %zu begin anew\n", uncovered, same);
+    EXPECT_GT(uncovered, 500u);
+    EXPECT_EQ(same, uncovered);
+}
+
 TEST_F(AntialiasTest, motionIsFreeOfJitter) {
     RenderFixture with, without;
     const scene::World world = mixedWorld();
