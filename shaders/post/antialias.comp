@@ -12,8 +12,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0) uniform sampler2D lit;
-layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 0, rgba16f) uniform readonly image2D lit;
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depthMap;
 layout(set = 0, binding = 2) uniform sampler2D motionMap;
 layout(set = 0, binding = 3) uniform sampler2D history;  // linear filter
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D result;
@@ -69,16 +69,16 @@ void main() {
     if (any(greaterThan(at, last))) return;
 
     // Mean and variance of 3x3 colours, and the nearest surface.
-    vec3 centre = texelFetch(lit, at + guard, 0).rgb, now = compressed(centre), mean = now, square = now * now;
+    vec3 centre = imageLoad(lit, at + guard).rgb, now = compressed(centre), mean = now, square = now * now;
     ivec2 nearest = at;
-    float depth = texelFetch(depthMap, at + guard, 0).x;
+    float depth = imageLoad(depthMap, at + guard).x;
     for (int i = 0; i < 9; ++i) {
         if (i == 4) continue;
         ivec2 p = clamp(at + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
-        vec3 c = compressed(texelFetch(lit, p + guard, 0).rgb);
+        vec3 c = compressed(imageLoad(lit, p + guard).rgb);
         mean += c;
         square += c * c;
-        float z = texelFetch(depthMap, p + guard, 0).x;
+        float z = imageLoad(depthMap, p + guard).x;
         if (z < depth) {
             depth = z;
             nearest = p;
