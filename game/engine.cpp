@@ -61,6 +61,7 @@ void Engine::frameOnce(const Options& options, Stage& stage, const ao::Values& v
     frame.falloff = options.choice.falloff;
     frame.compare = compare;
     frame.view = view;
+    frame.antialiasing = options.antialiasing;
     frame.cut = true;
     frame.voxels = options.voxels;
     const render::Outputs outputs = m_renderer->add(graph(), stage.world, frame);

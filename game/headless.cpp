@@ -124,6 +124,7 @@ int runHeadless(const Options& options) {
             frame.passView = options.passView;
             frame.exposure = options.exposure * stage.info.exposure;
             frame.bentNormals = options.bentNormals;
+            frame.antialiasing = options.antialiasing;
             frame.cut = i == 0;
             frame.skipMasked = options.skipMasked;
             frame.voxels = options.voxels;

@@ -75,7 +75,8 @@ std::optional<Options> parse(const std::vector<std::string>& words) {
                "  XDG_CONFIG_HOME      folder of obscura/settings, which the window remembers (default: ~/.config)\n"
                "\nExit codes: 0 success, 1 device or system failure, 2 invalid input, 3 validation messages\n");
     cli.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // so that scripts' defaults can be overridden
-    std::string method, preset, resolve, offscreen, falloff, compare, view = "final", slice, size, camera, path, eye, target;
+    std::string method, preset, resolve, offscreen, falloff, compare, view = "final", antialiasing = "taa", slice, size, camera, path, eye,
+                                                                      target;
     std::vector<std::string> assignments;
     bool headless = false, listMethods = false, listScenes = false, listScene = false, listDevices = false, flythrough = false,
          noVsync = false, noSettings = false;
@@ -124,6 +125,10 @@ std::optional<Options> parse(const std::vector<std::string>& words) {
     cli.add_option("--guard", options.guard, "Guard band around the picture, fraction of each side")
         ->group(kPicture)
         ->check(CLI::Range(0.0f, 0.5f))
+        ->capture_default_str();
+    cli.add_option("--aa", antialiasing, "Anti-aliasing of the final picture: taa (temporal: jitter, mean over frames) or none")
+        ->group(kPicture)
+        ->check(CLI::IsMember({"taa", "none"}))
         ->capture_default_str();
     cli.add_flag("--bent-normals", options.bentNormals, "Take ambient light from bent normals, of methods that have them");
     cli.add_option("--exposure", options.exposure, "Factor on the light before tone mapping")
@@ -237,6 +242,7 @@ std::optional<Options> parse(const std::vector<std::string>& words) {
     if (*framesOption) options.frames = frames;
     if (*switchOption) options.switchTest = switchTest;
     options.vsync = !noVsync;
+    options.antialiasing = antialiasing == "taa" ? render::Antialiasing::temporal : render::Antialiasing::none;
     options.voxels.cache = scene::cacheFolder();
     if (!slice.empty()) options.slice = sliceOf(slice);
     if (flythrough) options.camera.kind = CameraChoice::Kind::flythrough;

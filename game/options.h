@@ -55,6 +55,7 @@ struct Options {
     std::filesystem::path settings;  // file of remembered settings; empty: none
     uint32_t toys = 0;               // dropped at the start
     bool skipMasked = false;
+    render::Antialiasing antialiasing = render::Antialiasing::temporal;
     bool bentNormals = false;  // of methods that have them: ambient light is taken from them
     bool measure = false;
     render::Voxelization voxels;

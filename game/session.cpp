@@ -327,6 +327,7 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.passView = passView;
     frame.exposure = exposure;
     frame.bentNormals = bentNormals;
+    frame.antialiasing = options.antialiasing;
     frame.cut = cut;
     frame.skipMasked = options.skipMasked;
     frame.sampleStep = measures ? measuredStep(size) : 0;

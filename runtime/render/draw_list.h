@@ -10,6 +10,7 @@ struct CameraPair {
     glm::mat4 view{1.0f}, projection{1.0f};
     glm::mat4 previousView{1.0f}, previousProjection{1.0f};
     glm::vec3 eye{0.0f};
+    glm::vec2 jitter{0.0f};  // px, x right, y down: by which both projections move the image
     bool orthographic = false;
     bool still() const { return view == previousView && projection == previousProjection; }
 };

@@ -83,11 +83,15 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
             });
     }
 
+    return lit;
+}
+
+graph::ImageId Lighting::toneMap(graph::Graph& graph, graph::ImageId lit, const shared::View& view, float exposure) {
     const graph::ImageId picture = graph.image("picture", {VK_FORMAT_R8G8B8A8_UNORM, view.visible.x, view.visible.y});
     shared::ViewBlock block{};
     block.visible = view.visible;
-    block.offset = {float(view.guard.x), float(view.guard.y)};
-    block.exposure = in.exposure;
+    if (graph.desc(lit).width != view.visible.x) block.offset = {float(view.guard.x), float(view.guard.y)};
+    block.exposure = exposure;
     graph.pass("tone map", m_tonemap).read(lit).write(picture).constants(block).dispatch(view.visible.x, view.visible.y);
     return picture;
 }

@@ -1,4 +1,4 @@
-// Lighting from linear depth, G-buffer, visibility and shadow map, then blended surfaces, then tone mapping.
+// Lighting from linear depth, G-buffer, visibility and shadow map, then blended surfaces; and tone mapping.
 #pragma once
 
 #include "render/gbuffer.h"
@@ -23,13 +23,15 @@ public:
         shared::View view;
         glm::mat4 eyeFromWorld{1.0f};
         Sun sun;
-        float exposure = 1.0f;
         graph::BufferId frame, items;  // of the G-buffer
         const DrawList* draws = nullptr;
         Deform::Posed posed;
     };
-    // Returns the tone-mapped image, visible size. `draws` must stay valid until the graph has been executed.
+    // Returns linear radiance, R16G16B16A16_SFLOAT: as large as the depth buffer, lit in the visible part only. `draws` must stay valid
+    // until the graph has been executed.
     graph::ImageId add(graph::Graph& graph, const Inputs& inputs, Materials& materials);
+    // The picture of linear radiance with or without guard band: R8G8B8A8_UNORM, sRGB-encoded, visible size.
+    graph::ImageId toneMap(graph::Graph& graph, graph::ImageId lit, const shared::View& view, float exposure);
 
 private:
     gpu::Program m_light[2], m_tonemap;  // m_light: without and with bent normals

@@ -1,5 +1,5 @@
-// The frame: updates models and poses, then adds the passes in order: deform, G-buffer, obscurance, shadow, lighting, blending, tone
-// mapping or a view.
+// The frame: updates models and poses, then adds the passes in order: deform, G-buffer, obscurance, shadow, lighting, blending,
+// anti-aliasing, tone mapping or a view.
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -7,9 +7,13 @@
 #include <cstring>
 #include <map>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "render/antialias.h"
 #include "render/gbuffer.h"
 #include "render/layers.h"
 #include "render/lighting.h"
+#include "render/obscurance.h"
 #include "render/shadow.h"
 #include "render/views.h"
 
@@ -18,12 +22,9 @@ namespace obscura::render {
 using gpu::Status;
 
 struct Renderer::Impl {
-    Impl(gpu::Device& d, const gpu::ShaderLibrary& s) : device(d), shaders(s), library(d, s) {}
+    Impl(gpu::Device& d, const gpu::ShaderLibrary& s) : device(d), obscurance(d, s) {}
 
     gpu::Device& device;
-    const gpu::ShaderLibrary& shaders;
-    ao::Library library;
-    std::unique_ptr<ao::Library> other;                               // of B; null until used
     std::map<const scene::Model*, std::unique_ptr<ModelGpu>> models;  // null: could not be uploaded, logged once
     uint32_t modelSerial = 0;
     Actors actors;
@@ -31,8 +32,10 @@ struct Renderer::Impl {
     Deform deform;
     GBufferPass gbuffer;
     LayersPass layers;
+    Obscurance obscurance;
     Shadow shadow;
     Lighting lighting;
+    Antialias antialias;
     Views views;
     VoxelVolume voxels;
 
@@ -46,10 +49,7 @@ struct Renderer::Impl {
         return found == models.end() ? nullptr : found->second.get();
     }
     Status load(const scene::World& world);
-    CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const;
-    ao::Library& otherSide();
-    ao::Inputs obscurance(
-        graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out);
+    CameraPair cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, const glm::vec2& jitter, bool cut) const;
     void count(const scene::World& world);
 };
 
@@ -59,20 +59,6 @@ VkExtent2D guardOf(const FrameOptions& options) {
     const float fraction = std::clamp(options.guard, 0.0f, 0.5f);
     return {
         uint32_t(std::lround(fraction * float(options.visible.width))), uint32_t(std::lround(fraction * float(options.visible.height)))};
-}
-
-ao::Frame frameOf(VkExtent2D size, VkExtent2D guard, const CameraPair& camera, uint64_t index) {
-    ao::Frame frame;
-    frame.size = size;
-    frame.guard = guard;
-    static_assert(sizeof(frame.projection) == sizeof(camera.projection) && sizeof(frame.eyeFromWorld) == sizeof(camera.view));
-    std::memcpy(frame.projection, &camera.projection, sizeof(frame.projection));
-    std::memcpy(frame.eyeFromWorld, &camera.view, sizeof(frame.eyeFromWorld));
-    frame.depthKind = ao::DepthKind::device;
-    frame.normalKind = ao::NormalKind::eye;
-    frame.normalEncoding = ao::NormalEncoding::octahedral32;
-    frame.index = index;
-    return frame;
 }
 
 shared::SceneFrame sceneFrame(const CameraPair& camera, VkExtent2D size, VkExtent2D guard) {
@@ -101,6 +87,7 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
     if (status == Status::ok) status = LayersPass::create(device, shaders, impl.layers);
     if (status == Status::ok) status = Shadow::create(device, shaders, impl.shadow);
     if (status == Status::ok) status = Lighting::create(device, shaders, impl.lighting);
+    if (status == Status::ok) status = Antialias::create(device, shaders, impl.antialias);
     if (status == Status::ok) status = Views::create(device, shaders, impl.views);
     if (status == Status::ok) status = VoxelVolume::create(device, shaders, impl.voxels);
     if (status == Status::ok) return renderer;
@@ -108,8 +95,8 @@ std::unique_ptr<Renderer> Renderer::create(gpu::Device& device, const gpu::Shade
     return nullptr;
 }
 
-ao::Library& Renderer::library() { return m_impl->library; }
-ao::Library& Renderer::otherLibrary() { return m_impl->otherSide(); }
+ao::Library& Renderer::library() { return m_impl->obscurance.library(); }
+ao::Library& Renderer::otherLibrary() { return m_impl->obscurance.otherLibrary(); }
 SceneFacts Renderer::facts() const { return m_impl->facts; }
 const voxel::Voxels* Renderer::voxels() const { return m_impl->voxels.voxels(); }
 Status Renderer::load(const scene::World& world) { return m_impl->load(world); }
@@ -151,7 +138,8 @@ Status Renderer::Impl::load(const scene::World& world) {
     return worst;
 }
 
-CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, bool cut) const {
+CameraPair Renderer::Impl::cameras(
+    const scene::Camera& camera, VkExtent2D size, VkExtent2D visible, const glm::vec2& jitter, bool cut) const {
     const glm::vec2 whole(float(size.width), float(size.height)), shown(float(visible.width), float(visible.height));
     CameraPair pair;
     pair.view = camera.view();
@@ -160,45 +148,14 @@ CameraPair Renderer::Impl::cameras(const scene::Camera& camera, VkExtent2D size,
     const scene::Camera& before = cut || !lastCamera ? camera : *lastCamera;
     pair.previousView = before.view();
     pair.previousProjection = before.projection(whole, shown);
+    // Last frame's projection with this frame's jitter: motion vectors are free of it.
+    const glm::mat4 moved = glm::translate(glm::mat4(1.0f), glm::vec3(2.0f * jitter / whole, 0.0f));
+    pair.projection = moved * pair.projection;
+    pair.previousProjection = moved * pair.previousProjection;
+    pair.jitter = jitter;
     pair.eye = camera.eye;
     pair.orthographic = camera.orthoHalfHeight > 0.0f;
     return pair;
-}
-
-ao::Library& Renderer::Impl::otherSide() {
-    if (!other) other = std::make_unique<ao::Library>(device, shaders);
-    return *other;
-}
-
-// Each side prepares its own inputs and has its own history, so its passes take the time that they take without the other side.
-ao::Inputs Renderer::Impl::obscurance(
-    graph::Graph& graph, const ao::Frame& frame, const ao::Sources& sources, const FrameOptions& options, Outputs& out) {
-    const bool bends = options.bentNormals || options.view == View::bentNormals;
-    const auto run = [&](ao::Library& of, ao::Values values) {
-        values.bentNormals = values.info().bentNormals && (values.bentNormals || bends);
-        ao::Library::Added added = of.add(graph, frame, sources, options.falloff, values);
-        if (!added.visibility) added.visibility = ao::allOpen(graph, options.visible, "no visibility");  // the library has logged why
-        // A method that cannot be made leaves no prepared depth, which lighting reads.
-        if (!added.inputs.depth) added.inputs = of.add(graph, frame, sources, options.falloff, ao::Values(*ao::findMethod("none"))).inputs;
-        return added;
-    };
-    if (!options.compare) {
-        if (other) other->discardHistory();  // it would be outdated when used again
-        const ao::Library::Added only = run(library, *options.method);
-        out.visibility = out.sides[0] = only.visibility;
-        out.bentNormals = only.bentNormals;
-        return only.inputs;
-    }
-    graph.prefix("A.");
-    const ao::Library::Added left = run(library, *options.method);
-    graph.prefix("B.");
-    const ao::Library::Added right = run(otherSide(), *options.compare);
-    graph.prefix("");
-    out.sides[0] = left.visibility;
-    out.sides[1] = right.visibility;
-    out.visibility = views.split(graph, out.sides[0], out.sides[1], options.split);
-    if (left.bentNormals && right.bentNormals) out.bentNormals = views.split(graph, left.bentNormals, right.bentNormals, options.split);
-    return left.inputs;
 }
 
 void Renderer::Impl::count(const scene::World& world) {
@@ -219,13 +176,15 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     impl.load(world);
     const bool cut = options.cut || !impl.lastCamera;
     if (cut) {
-        impl.library.discardHistory();
-        if (impl.other) impl.other->discardHistory();
+        impl.obscurance.discardHistory();
         impl.frame = 0;
     }
+    const uint64_t index = impl.frame++;
+    const bool antialiases = options.antialiasing == Antialiasing::temporal && options.view == View::final && options.sampleStep == 0;
     const VkExtent2D guard = guardOf(options);
     const VkExtent2D size{options.visible.width + 2 * guard.width, options.visible.height + 2 * guard.height};
-    const CameraPair camera = impl.cameras(options.camera, size, options.visible, cut);
+    const CameraPair camera =
+        impl.cameras(options.camera, size, options.visible, antialiases ? antialiasJitter(index) : glm::vec2(0.0f), cut);
     impl.lastCamera = options.camera;
 
     impl.actors.update(world, options.time, cut, [&](const scene::Model* model) { return impl.find(model); });
@@ -238,68 +197,67 @@ Outputs Renderer::add(graph::Graph& graph, const scene::World& world, const Fram
     const graph::BufferId items = graph.upload("draw items", impl.draws.items.data(), impl.draws.items.size() * sizeof(shared::DrawItem));
     const GBuffer g = impl.gbuffer.add(graph, size, frame, items, impl.draws, posed, impl.materials);
 
-    ao::Frame aoFrame = frameOf(size, guard, camera, impl.frame++);
-    ao::Sources sources{g.depth, g.geometric, g.motion};
-    sources.packed = true;
-    const bool showsLayers = options.view == View::thickness || options.view == View::second || options.view == View::secondThickness;
-    const ao::LayerMode use =
-        std::max({ao::layerModeOf(*options.method), options.compare ? ao::layerModeOf(*options.compare) : ao::LayerMode::none,
-            showsLayers ? ao::LayerMode::second : ao::LayerMode::none});
-    if (use != ao::LayerMode::none)
-        sources.layers = impl.layers.add(graph, g, frame, items, impl.draws, posed, impl.materials, use, options.layerForm);
-    const uint32_t needs = ao::needs(*options.method) | (options.compare ? ao::needs(*options.compare) : 0);
-    if ((needs & ao::kVolume) || isVoxels(options.view)) {
+    Obscurance::Inputs in{size, guard, camera, index, g.depth, g.geometric, g.motion, {}, {}, {}};
+    if (const ao::LayerMode layers = Obscurance::layersFor(options); layers != ao::LayerMode::none)
+        in.layers = impl.layers.add(graph, g, frame, items, impl.draws, posed, impl.materials, layers, options.layerForm);
+    if (Obscurance::readsVolume(options)) {
         const VoxelVolume::Scene scene{world, options.time, options.camera, impl.actors.drawables(), posed, !options.skipMasked};
-        sources.volume = impl.voxels.add(graph, scene, options.voxels, aoFrame.volume);
+        in.voxels = impl.voxels.add(graph, scene, options.voxels, in.volume);
     }
-    Outputs out;
-    const ao::Inputs prepared = impl.obscurance(graph, aoFrame, sources, options, out);
-    shared::View view{};
-    const char* reason = nullptr;
-    ao::viewOf(aoFrame, view, reason);
+    const Obscurance::Result obscurance = impl.obscurance.add(graph, in, options, impl.views);
+    const shared::View& view = obscurance.view;
 
+    Outputs out;
+    out.visibility = obscurance.visibility;
+    out.bentNormals = obscurance.bentNormals;
+    std::copy_n(obscurance.sides, 2, out.sides);
     out.depth = g.depth;
-    out.linearDepth = prepared.depth;
+    out.linearDepth = obscurance.linearDepth;
     out.normals = g.geometric;
     out.motion = g.motion;
-    out.voxels = sources.volume;
-    out.layers = sources.layers;
-    if (options.sampleStep && prepared.depth) out.samples = impl.views.samples(graph, out, options.sampleStep, view);
+    out.voxels = in.voxels;
+    out.layers = in.layers;
+    if (!antialiases) impl.antialias.skip(graph);
+    if (options.sampleStep && out.linearDepth) out.samples = impl.views.samples(graph, out, options.sampleStep, view);
     if (options.view == View::final || options.view == View::pass) {
-        Lighting::Inputs in;
-        in.gbuffer = g;
-        in.linearDepth = prepared.depth;
-        in.visibility = out.visibility;
-        if (options.bentNormals) in.bentNormals = out.bentNormals;
-        in.view = view;
-        in.eyeFromWorld = camera.view;
-        in.sun = options.sun;
-        in.exposure = options.exposure;
-        in.frame = frame;
-        in.items = items;
-        in.draws = &impl.draws;
-        in.posed = posed;
+        Lighting::Inputs lit;
+        lit.gbuffer = g;
+        lit.linearDepth = out.linearDepth;
+        lit.visibility = out.visibility;
+        if (options.bentNormals) lit.bentNormals = out.bentNormals;
+        lit.view = view;
+        lit.eyeFromWorld = camera.view;
+        lit.sun = options.sun;
+        lit.frame = frame;
+        lit.items = items;
+        lit.draws = &impl.draws;
+        lit.posed = posed;
         ShadowRequest request{impl.actors.drawables(), -glm::normalize(options.sun.direction), options.camera.eye};
         request.forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
         request.size = options.shadowSize;
         request.reach = options.shadowReach;
         request.skipMasked = options.skipMasked;
-        in.shadow = impl.shadow.add(graph, request, posed, impl.materials);
-        if (in.shadow.image && in.linearDepth) out.color = impl.lighting.add(graph, in, impl.materials);
+        lit.shadow = impl.shadow.add(graph, request, posed, impl.materials);
+        if (lit.shadow.image && lit.linearDepth) {
+            graph::ImageId radiance = impl.lighting.add(graph, lit, impl.materials);
+            if (antialiases)
+                radiance = impl.antialias.add(graph, {radiance, out.linearDepth, g.motion, view, camera, options.exposure, cut});
+            out.color = impl.lighting.toneMap(graph, radiance, view, options.exposure);
+        }
         if (options.view == View::pass) {
             const graph::ImageId shown = impl.views.addPass(graph, options.passView, view);
             if (shown) out.color = shown;
         }
     }
-    if (isVoxels(options.view) && sources.volume)
+    if (isVoxels(options.view) && in.voxels)
         out.color = impl.views.voxels(
-            graph, sources.volume, aoFrame.volume, options.view == View::voxelSlice ? &options.slice : nullptr, options.camera.eye, view);
+            graph, in.voxels, in.volume, options.view == View::voxelSlice ? &options.slice : nullptr, options.camera.eye, view);
     if (isDifference(options.view) && out.sides[1])
         out.color =
             impl.views.difference(graph, out.sides[0], out.sides[1], options.differenceRange, options.view == View::signedDifference);
     if (options.view == View::history || options.view == View::rejected) out.color = impl.views.addHistory(graph, options.view, view);
     if (options.view == View::bentNormals && out.bentNormals) out.color = impl.views.directions(graph, out.bentNormals, view);
-    if (!out.color) out.color = impl.views.add(graph, options.view, g, sources.layers, out.visibility, view);
+    if (!out.color) out.color = impl.views.add(graph, options.view, g, in.layers, out.visibility, view);
     return out;
 }
 

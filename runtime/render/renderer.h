@@ -70,6 +70,8 @@ struct VoxelSlice {
 // On lavapipe at 640x360, atrium / Sponza: one peel 42 / 49 ms, three peels 130 / 150 ms, ladder 77 / 100 ms.
 enum class LayerForm : uint8_t { best, peeling, ladder };
 
+enum class Antialiasing : uint8_t { none, temporal };
+
 struct FrameOptions {
     VkExtent2D visible{1280, 720};  // px
     float guard = 0.1f;             // fraction of each side, 0 to 0.5
@@ -88,6 +90,9 @@ struct FrameOptions {
     LayerForm layerForm = LayerForm::best;
     // Ambient light is taken from the bent normals, and blocked reflections from their cone, where the methods of both sides have them.
     bool bentNormals = false;
+    // temporal: the projection moves by a fraction of a pixel each frame, and the final picture is the mean over frames. Views other than
+    // `final`, and frames with samples, are not moved.
+    Antialiasing antialiasing = Antialiasing::none;
     Voxelization voxels;  // for methods that need a volume
     VoxelSlice slice;
     Sun sun;
