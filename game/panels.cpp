@@ -185,6 +185,10 @@ void viewPanel(Session& session) {
     tip("Shows the picture, a buffer of the frame, or the output of any pass.");
     ImGui::Checkbox("bent normals", &session.bentNormals);
     tip("Takes ambient light from bent normals and blocks reflections by their cone, where the method has them.");
+    bool smooth = session.antialiasing != render::Antialiasing::none;
+    if (ImGui::Checkbox("anti-aliasing", &smooth))
+        session.antialiasing = smooth ? render::Antialiasing::temporal : render::Antialiasing::none;
+    tip("Jitters the final picture and averages it over frames. Other views and measured frames are not jittered.");
     ImGui::SliderFloat("exposure", &session.exposure, 0.05f, 20.0f, "%.3g", ImGuiSliderFlags_Logarithmic);
     ImGui::SliderFloat("guard band", &session.guard, 0.0f, 0.5f, "%.2f");
     tip("Renders buffers beyond the picture by this fraction of each side, so that occluders outside it count. Costs the time of the extra "

@@ -35,6 +35,7 @@ Session::Session(const Options& given, Stage& stage_, Engine& engine_)
       exposure(given.exposure * stage_.info.exposure),
       guard(given.guard),
       bentNormals(given.bentNormals),
+      antialiasing(given.antialiasing),
       voxels(given.voxels),
       slice(given.slice),
       m_lastMethod(given.choice.current()) {
@@ -327,7 +328,7 @@ render::FrameOptions Session::frame(VkExtent2D size) {
     frame.passView = passView;
     frame.exposure = exposure;
     frame.bentNormals = bentNormals;
-    frame.antialiasing = options.antialiasing;
+    frame.antialiasing = antialiasing;
     frame.cut = cut;
     frame.skipMasked = options.skipMasked;
     frame.sampleStep = measures ? measuredStep(size) : 0;

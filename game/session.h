@@ -36,6 +36,7 @@ public:
     float pace = 1.0f;  // world seconds per second
     float exposure = 1.0f, guard = 0.1f;
     bool bentNormals = false;  // FrameOptions::bentNormals
+    render::Antialiasing antialiasing = render::Antialiasing::temporal;
     render::Voxelization voxels;
     render::VoxelSlice slice;
     bool paused = false;

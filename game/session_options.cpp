@@ -29,6 +29,7 @@ std::vector<Argument> Session::settings() const {
     if (ao::falloffText(choice.falloff) != ao::falloffText(plain.choice.falloff))
         list.push_back({"--falloff", ao::falloffText(choice.falloff)});
     if (bentNormals) list.push_back({"--bent-normals", ""});
+    if (antialiasing == render::Antialiasing::none) list.push_back({"--aa", "none"});
     add("--exposure", exposure / stage.info.exposure, plain.exposure);
     add("--guard", guard, plain.guard);
     if (voxels.cells != plain.voxels.cells) list.push_back({"--voxels", std::to_string(voxels.cells)});
