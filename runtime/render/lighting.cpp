@@ -26,6 +26,7 @@ shared::LightingBlock blockOf(const Lighting::Inputs& in, uint32_t shadowSize) {
     block.sky = toShared(in.sun.sky, 0.0f);
     block.ground = toShared(in.sun.ground, 0.0f);
     block.up = toShared(turn * glm::vec3(0, 1, 0), float(shadowSize));
+    block.shadow = {in.shadow.depthRange, in.sun.diameter, 0.0f, 0.0f};
     return block;
 }
 
@@ -60,14 +61,19 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
         .read(g.material)
         .read(g.emission)
         .read(in.visibility)
+        .read(in.shadow.image)
         .read(in.shadow.image, Sampling::shadow)
         .write(lit);
     if (in.bentNormals) lighting.read(in.bentNormals);
     lighting.dispatch(view.visible.x, view.visible.y);
 
     if (!in.draws->blended.empty()) {
-        graph::Pass& pass =
-            graph.pass("blend", m_blend.base()).read(in.frame).read(in.items).read(light).read(in.shadow.image, Sampling::shadow);
+        graph::Pass& pass = graph.pass("blend", m_blend.base())
+                                .read(in.frame)
+                                .read(in.items)
+                                .read(light)
+                                .read(in.shadow.image)
+                                .read(in.shadow.image, Sampling::shadow);
         if (in.posed.now)
             pass.use(in.posed.now, graph::Access::vertex)
                 .use(in.posed.before, graph::Access::vertex)

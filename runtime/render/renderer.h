@@ -55,6 +55,7 @@ uint32_t dividerColumn(float split, uint32_t width);
 struct Sun {
     glm::vec3 direction{0.35f, -1.0f, 0.25f};  // direction of the light, world; any length
     glm::vec3 radiance{6.0f, 5.6f, 4.9f};      // linear; pi times the radiance that a white diffuse surface facing the sun reflects
+    float diameter = 0.02f;                    // over its distance: a penumbra is 2 cm wide 1 m behind what casts it (the real sun: 0.0093)
     glm::vec3 sky{0.9f, 1.05f, 1.25f};         // ambient radiance from above, linear
     glm::vec3 ground{0.45f, 0.40f, 0.34f};     // ambient radiance from below, linear
 };

@@ -170,6 +170,7 @@ Shadow::Map Shadow::add(graph::Graph& graph, const ShadowRequest& request, const
 
     Map map;
     map.texel = f.side / float(request.size);
+    map.depthRange = f.high - f.low;
     const glm::mat4 toUnit(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0, 1);
     map.fromWorld = toUnit * clip;
     const bool redrawResting = m_resting.drawn != resting.value, anyMoving = !casters[1].empty();

@@ -24,6 +24,7 @@ public:
         graph::ImageId image;
         glm::mat4 fromWorld{1.0f};  // xy in [0,1], z reversed depth
         float texel = 0.0f;         // side of a texel, metres
+        float depthRange = 1.0f;    // from depth 0 to 1, metres
     };
     // `casters` must stay valid until the graph has been executed.
     Map add(graph::Graph& graph, const ShadowRequest& request, const Deform::Posed& posed, Materials& materials);

@@ -8,7 +8,8 @@
 
 layout(set = 0, binding = 0) uniform FrameUniform { SceneFrame frame; };
 layout(set = 0, binding = 2) uniform Light { LightingBlock light; };
-layout(set = 0, binding = 3) uniform sampler2DShadow shadowMap;
+layout(set = 0, binding = 3) uniform sampler2D shadowMap;
+layout(set = 0, binding = 4) uniform sampler2DShadow shadowCompared;  // the same image
 
 layout(location = 0) in vec3 inEye;
 layout(location = 1) in vec3 inNormal;
@@ -31,7 +32,7 @@ void main() {
         s.roughness = metalRough.y;
         s.metalness = metalRough.x;
         s.visibility = occlusionOf(inUv);
-        lit = shade(light, s, sunlight(light, shadowMap, s.position, s.geometric));
+        lit = shade(light, s, sunlight(light, shadowMap, shadowCompared, s.position, s.geometric));
     }
     outColor = vec4((lit + emissionOf(inUv)) * color.a, color.a);
 }

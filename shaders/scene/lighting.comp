@@ -15,10 +15,11 @@ layout(set = 0, binding = 4) uniform sampler2D baseColorMap;
 layout(set = 0, binding = 5) uniform sampler2D materialMap;
 layout(set = 0, binding = 6) uniform sampler2D emissionMap;
 layout(set = 0, binding = 7) uniform sampler2D visibilityMap;  // visible size
-layout(set = 0, binding = 8) uniform sampler2DShadow shadowMap;
-layout(set = 0, binding = 9, rgba16f) writeonly uniform image2D lit;
+layout(set = 0, binding = 8) uniform sampler2D shadowMap;
+layout(set = 0, binding = 9) uniform sampler2DShadow shadowCompared;  // the same image
+layout(set = 0, binding = 10, rgba16f) writeonly uniform image2D lit;
 #ifdef BENT
-layout(set = 0, binding = 10) uniform sampler2D bentMap;  // visible size
+layout(set = 0, binding = 11) uniform sampler2D bentMap;  // visible size
 #endif
 
 void main() {
@@ -52,6 +53,6 @@ void main() {
     // The bend belongs to the geometric normal; a normal map turns the bent normal by as much as the normal.
     s.ambient = normalize(texelFetch(bentMap, at, 0).xyz + s.normal - s.geometric);
 #endif
-    float sun = sunlight(light, shadowMap, s.position, s.geometric);
+    float sun = sunlight(light, shadowMap, shadowCompared, s.position, s.geometric);
     imageStore(lit, p, vec4(shade(light, s, sun) + emission, 1.0));
 }

@@ -13,8 +13,9 @@ struct LightingBlock {
     vec4 sky;            // radiance from above
     vec4 ground;         // radiance from below
     vec4 up;             // unit; w: shadow map size in texels
+    vec4 shadow;         // x: metres of the map's depth range; y: the sun's diameter over its distance
 };
-OBSCURA_SHARED_SIZE(LightingBlock, 240);
+OBSCURA_SHARED_SIZE(LightingBlock, 256);
 
 OBSCURA_SHARED_END
 #endif

@@ -79,29 +79,63 @@ vec3 sunReflection(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float roughnes
     return (diffuse / kPi * (1.0 - fresnel) + fresnel * (distribution * smith)) * nl;
 }
 
-// Visibility of the sun, 0 to 1: a 3x3 filter with bilinear weights, by four gathers.
-float sunlight(LightingBlock light, sampler2DShadow shadow, vec3 position, vec3 geometric) {
-    float facing = dot(geometric, light.toSun.xyz);
-    // Offset along the normal against self-shadowing: the depth range of the filter's width at this slope.
+// Taps of a disk of radius 1: Vogel's spiral, equal areas.
+const int kTaps = 8;
+const vec2 kDisk[kTaps] = vec2[kTaps](
+    vec2(0.250, 0.000), vec2(-0.319, 0.292), vec2(0.049, -0.557), vec2(0.402, 0.525), vec2(-0.739, -0.131), vec2(0.700, -0.445),
+    vec2(-0.234, 0.870), vec2(-0.446, -0.859));
+const float kWidest = 6.0;  // texels: largest radius of the penumbra's filter
+const float kSharp = 1.5;   // texels: below it 3x3 texels are filtered
+
+// Visibility of the sun's disk, 0 to 1 [Fernando 2005, Percentage-Closer Soft Shadows]: the radius of the filter is that of the penumbra at
+// the mean distance of what is in front. `map`: nearest texels; `compared`: the same image, compared and filtered.
+float sunlight(LightingBlock light, sampler2D map, sampler2DShadow compared, vec3 position, vec3 geometric) {
+    float facing = dot(geometric, light.toSun.xyz), side = light.toSun.w, size = light.up.w;
+    if (facing <= 0.0) return 0.0;
+    // Offset along the normal against self-shadowing: the depth range of a texel at this slope.
     float slope = sqrt(max(1.0 - facing * facing, 0.0));
-    vec3 lifted = position + geometric * (light.toSun.w * (0.35 + 1.65 * slope));
+    vec3 lifted = position + geometric * (side * (0.35 + 1.65 * slope));
     vec3 s = (light.shadowFromEye * vec4(lifted, 1.0)).xyz;
     if (any(lessThan(s.xy, vec2(0.0))) || any(greaterThan(s.xy, vec2(1.0)))) return 1.0;
     float reference = clamp(s.z, 0.0, 1.0);
-    float size = light.up.w;
-    vec2 texel = s.xy * size - 0.5;
-    vec2 base = floor(texel);
-    vec2 f = texel - base;
-    vec2 corner = (base + 0.0) / size;  // between texels base-1 and base
-    vec4 a = textureGather(shadow, corner, reference);
-    vec4 b = textureGather(shadow, corner + vec2(2.0, 0.0) / size, reference);
-    vec4 c = textureGather(shadow, corner + vec2(0.0, 2.0) / size, reference);
-    vec4 d = textureGather(shadow, corner + vec2(2.0, 2.0) / size, reference);
-    // Weights of the columns: (1-f, 1, 1, f). A gather returns (0,1) (1,1) (1,0) (0,0).
-    vec4 w = vec4(1.0 - f.x, 1.0, 1.0, f.x);
-    float top = dot(w, vec4(a.w, a.z, b.w, b.z)) * (1.0 - f.y) + dot(w, vec4(a.x, a.y, b.x, b.y));
-    float bottom = dot(w, vec4(c.w, c.z, d.w, d.z)) + dot(w, vec4(c.x, c.y, d.x, d.y)) * f.y;
-    return (top + bottom) / 9.0;
+    // Depth of the surface's plane, per texel [Isidoro 2006, Shadow Mapping: GPU-based Tips and Techniques].
+    vec2 across = (mat3(light.shadowFromEye) * geometric).xy * (side * size);
+    vec2 plane = across * (-side / (max(facing, 0.2) * light.shadow.x));
+
+    // 4x4 texels: columns and rows at -1 to 2 from `base`. A gather returns (0,1) (1,1) (1,0) (0,0).
+    vec2 texel = s.xy * size - 0.5, base = floor(texel), f = texel - base;
+    vec4 x = vec4(-1.0, 0.0, 1.0, 2.0) - f.x, y = vec4(-1.0, 0.0, 1.0, 2.0) - f.y;
+    float sum = 0.0, above = 0.0, blockers = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        bvec2 second = bvec2(i & 1, i >> 1);
+        vec2 columns = second.x ? x.zw : x.xy, rows = second.y ? y.zw : y.xy;
+        vec4 there = vec4(columns.xyyx * plane.x + rows.yyxx * plane.y) + reference;
+        vec4 depth = textureGather(map, (base + vec2(second) * 2.0) / size);
+        vec4 isLit = vec4(greaterThanEqual(there, depth));
+        vec2 wx = second.x ? vec2(1.0, f.x) : vec2(1.0 - f.x, 1.0), wy = second.y ? vec2(1.0, f.y) : vec2(1.0 - f.y, 1.0);
+        sum += dot(isLit, wx.xyyx * wy.yyxx);
+        above += dot(1.0 - isLit, depth - there);
+        blockers += dot(1.0 - isLit, vec4(1.0));
+    }
+    // And 2x2 texels at four places around.
+    vec2 ring = vec2(0.9, 0.4) * (0.7 * kWidest);
+    for (int i = 0; i < 4; ++i) {
+        float there = reference + dot(plane, ring) + abs(plane.x) + abs(plane.y);
+        vec4 depth = textureGather(map, s.xy + ring / size), isBlocker = vec4(greaterThan(depth, vec4(there)));
+        above += dot(isBlocker, depth - there);
+        blockers += dot(isBlocker, vec4(1.0));
+        ring = vec2(-ring.y, ring.x);
+    }
+    if (blockers == 0.0 || blockers == 32.0) return 1.0 - blockers / 32.0;
+    float radius = 0.5 * light.shadow.y * light.shadow.x * above / (blockers * side);
+    float sharp = sum / 9.0;
+    if (radius <= kSharp) return sharp;
+    float soft = 0.0, wide = min(radius, kWidest);
+    for (int i = 0; i < kTaps; ++i) {
+        vec2 off = wide * kDisk[i];
+        soft += textureLod(compared, vec3(s.xy + off / size, reference + dot(plane, off)), 0.0);
+    }
+    return mix(sharp, soft / float(kTaps), min(radius - kSharp, 1.0));
 }
 
 vec3 shade(LightingBlock light, Surface s, float sun) {
