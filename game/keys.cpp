@@ -38,6 +38,7 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_MINUS, Action::slower, "-", "slower time"},
     {GLFW_KEY_EQUAL, Action::faster, "=", "faster time"},
     {GLFW_KEY_F, Action::toggleWalk, "F", "fly or walk"},
+    {GLFW_KEY_G, Action::captureMouse, "G", "look around with the mouse alone, on and off (Esc: off)"},
     {GLFW_KEY_L, Action::toggleFlythrough, "L", "follow the scene's flythrough, on and off"},
     {GLFW_KEY_R, Action::record, "R", "record the camera path, on and off: a file for Y, --path and obscura-flythrough"},
     {GLFW_KEY_Y, Action::replay, "Y", "replay the last recorded path (or that of --path), on and off"},

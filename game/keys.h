@@ -39,6 +39,7 @@ enum class Action {
     replay,
     measure,
     copyCommand,
+    captureMouse,
 };
 
 struct KeyBinding {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -191,7 +192,10 @@ std::string Session::referenceHint(const Measures::Reading& reading) const {
 
 void Session::act(Action action, int key) {
     switch (action) {
-        case Action::quit: wantsQuit = true; break;
+        case Action::quit:
+            if (!std::exchange(mouseLook, false)) wantsQuit = true;
+            break;
+        case Action::captureMouse: mouseLook = !mouseLook; break;
         case Action::toggleOverlay: showOverlay = !showOverlay; break;
         case Action::toggleKeys: showKeys = !showKeys; break;
         case Action::screenshot: wantsScreenshot = true; break;

@@ -42,6 +42,7 @@ public:
     bool paused = false;
     bool following = false;  // the camera moves by itself: flythrough, path or lens
     bool cut = true;         // camera or time of the next frame jumped: histories are discarded
+    bool mouseLook = false;  // the mouse looks around without a button
     bool showOverlay = true, showKeys = false;
     bool wantsScreenshot = false, wantsCommand = false, wantsFullScreen = false, wantsQuit = false;
     std::string notice;                  // one line, shown until noticeUntil

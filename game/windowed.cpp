@@ -185,7 +185,7 @@ void Game::run() {
         // Mouse look starts outside the panels and continues over them, with the pointer hidden.
         const bool onPanel = m_overlay && m_overlay->wantsMouse();
         m_session.dragDivider(m_window, onPanel);
-        m_window.captureMouse(m_window.button(GLFW_MOUSE_BUTTON_RIGHT) && (m_window.mouseCaptured() || !onPanel));
+        m_window.captureMouse(m_session.mouseLook || (m_window.button(GLFW_MOUSE_BUTTON_RIGHT) && (m_window.mouseCaptured() || !onPanel)));
 
         const double begun = app::now();
         const double since = begun - m_lastFrame;

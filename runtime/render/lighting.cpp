@@ -73,7 +73,9 @@ graph::ImageId Lighting::add(graph::Graph& graph, const Inputs& in, Materials& m
                                 .read(in.items)
                                 .read(light)
                                 .read(in.shadow.image)
-                                .read(in.shadow.image, Sampling::shadow);
+                                .read(in.shadow.image, Sampling::shadow)
+                                .read(in.linearDepth)
+                                .read(in.visibility);
         if (in.posed.now)
             pass.use(in.posed.now, graph::Access::vertex)
                 .use(in.posed.before, graph::Access::vertex)
