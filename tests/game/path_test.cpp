@@ -89,8 +89,8 @@ TEST_F(Replay, IsDeterministicAndComplete) {
     }
     EXPECT_TRUE(frame("a", 7).empty()) << "0.2 s have seven frames";
     // A replay from frame 3 on shows the same camera and world.
-    ASSERT_EQ(fly("c", {"--time", "0.4", "--frames", "1", "--method", "none"}).code, 0);
-    ASSERT_EQ(fly("d", {"--method", "none"}).code, 0);
+    ASSERT_EQ(fly("c", {"--time", "0.4", "--frames", "1", "--method", "none", "--aa", "none"}).code, 0);
+    ASSERT_EQ(fly("d", {"--method", "none", "--aa", "none"}).code, 0);
     EXPECT_EQ(frame("c", 0), frame("d", 3));
 }
 

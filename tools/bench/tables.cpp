@@ -13,6 +13,7 @@
 #include "front.h"
 #include "obscura/ao.h"
 #include "scaling.h"
+#include "scene/json_text.h"
 
 namespace obscura::bench {
 
@@ -262,10 +263,9 @@ std::string summary(const Results& results) {
         if (line.gpu) entry["cycles"] = std::round(line.gpu->cycles);
         list.push_back(entry);
     }
-    return Json{{"about", "Shown by the game's menu of methods. Renew: tools/renew"}, {"scenes", table.places}, {"size", table.size},
-               {"falloff", table.falloff}, {"chip", results.gpu}, {"methods", list}}
-               .dump(1) +
-           "\n";
+    const Json all{{"about", "Shown by the game's menu of methods. Renew: tools/renew"}, {"scenes", table.places}, {"size", table.size},
+        {"falloff", table.falloff}, {"chip", results.gpu}, {"methods", list}};
+    return scene::dump(all, 1) + "\n";
 }
 
 std::string withTables(const std::string& text, const Results* results, const std::filesystem::path& file) {
