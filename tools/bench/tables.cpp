@@ -254,7 +254,8 @@ std::string costTable(const Results& results) {
 std::string summary(const Results& results) {
     const std::vector<Table> tables = tablesOf(results);
     if (tables.empty()) throw app::Complaint("--summary: nothing was measured");
-    const Table& table = tables.front();
+    Table table = tables.front();
+    std::sort(table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) { return a.label < b.label; });
     Json list = Json::array();
     for (const Line& line : table.lines) {
         if (line.preset.empty() || !line.worlds) continue;
