@@ -318,9 +318,11 @@ void errorPanel(const std::vector<std::string>& errors) {
 void noticeLine(const Session& session) {
     if (session.notice.empty() || app::now() > session.noticeUntil) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
+    // Of the text's size: an automatic size follows a frame late.
+    const ImVec2 text = ImGui::CalcTextSize(session.notice.c_str()), padding = ImGui::GetStyle().WindowPadding;
     ImGui::SetNextWindowPos({size.x * 0.5f, 12.0f}, ImGuiCond_Always, {0.5f, 0.0f});
-    constexpr ImGuiWindowFlags kPlain =
-        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
+    ImGui::SetNextWindowSize({text.x + 2.0f * padding.x, text.y + 2.0f * padding.y});
+    constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
     if (ImGui::Begin("##notice", nullptr, kPlain)) ImGui::TextUnformatted(session.notice.c_str());
     ImGui::End();
 }
