@@ -130,6 +130,7 @@ int runHeadless(const Options& options) {
             frame.voxels = options.voxels;
             frame.sampleStep = measures ? measuredStep(options.size) : 0;
             frame.slice = options.slice;
+            stage.toys->advance(time, nullptr, true);
             const render::Outputs outputs = engine.renderer().add(graph, stage.world, frame);
             if (i == 0) {
                 expectPass(options, graph);

@@ -29,6 +29,7 @@ enum class Action {
     dropToy,
     removeToy,
     clearToys,
+    grabToy,
     compare,
     nextOther,
     swapSides,

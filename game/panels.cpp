@@ -279,7 +279,7 @@ void timePanel(Session& session) {
     ImGui::SameLine();
     if (ImGui::Button("Remove one")) session.act(Action::removeToy, 0);
     ImGui::SameLine();
-    ImGui::Text("%zu / %zu", session.stage.toys(), Stage::kMostToys);
+    ImGui::Text("%zu / %zu", session.stage.toys->dropped(), Toys::kMost);
 }
 
 void factsPanel(Session& session) {

@@ -22,6 +22,7 @@ public:
     scene::Camera camera() const;
     // Held keys and mouse of one frame. `speed` in metres a second.
     void update(const app::Window& window, float seconds, float speed, const Ground& ground);
+    void moveTo(const glm::vec3& eye) { m_position = eye; }
     bool moved() const { return m_moved; }  // in the last update
     bool walking = false;
 

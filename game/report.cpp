@@ -169,7 +169,7 @@ void Report::write(const std::filesystem::path& folder) const {
         {"falloff", ao::falloffText(choice.falloff)},
         {"scene", stage.file},
         {"triangles", fmt::format("{} ({} drawn, {} draws)", facts.triangles, facts.drawn, facts.draws)},
-        {"instances", fmt::format("{} ({} dropped toasters)", facts.instances, stage.toys())},
+        {"instances", fmt::format("{} ({} dropped toasters)", facts.instances, stage.toys->dropped())},
         {"memory", fmt::format("{:.1f} MiB on the device; textures {:.1f}, geometry {:.1f}", double(engine.device().memoryUse()) * mebi,
                        double(facts.textureBytes) * mebi, double(facts.geometryBytes) * mebi)},
         {"start", fmt::format("{:.2f} s: device {:.2f}, scene {:.2f}, pipelines {:.2f}, warm-up {:.2f}; pipeline cache {}",

@@ -181,7 +181,7 @@ void Session::stopRecording() {
 std::string Session::referenceHint(const Measures::Reading& reading) const {
     if (!replaying()) return "only replayed paths have references: R records one, Y replays it";
     if (!stage.info.toys.empty()) return "references leave out the game's own toasters: start the game with --bare";
-    if (stage.toys() > 0) return "references leave out dropped toasters: Delete removes them";
+    if (stage.toys->dropped() > 0) return "references leave out dropped toasters: Delete removes them";
     const scene::CameraPath& path = stage.pathOf(replayFile);
     const std::string from = replayStart == path.keys.front().time ? "" : fmt::format("@{}", replayStart);
     return fmt::format(
@@ -269,21 +269,27 @@ void Session::act(Action action, int key) {
             break;
         case Action::dropToy: {
             const glm::vec3 away = m_camera.eye - m_camera.target;
-            if (stage.dropToy(stage.floorAhead(m_camera), std::atan2(away.x, away.z), time))
-                say(fmt::format("{} of {} toasters dropped", stage.toys(), Stage::kMostToys));
+            if (stage.toys->drop(stage.floorAhead(m_camera), std::atan2(away.x, away.z), time))
+                say(fmt::format("{} of {} toasters dropped", stage.toys->dropped(), Toys::kMost));
             else
-                say(stage.hasToys() ? fmt::format("{} toasters is the maximum; Backspace removes one", Stage::kMostToys)
-                                    : "toasters.glb is missing; build the target content, which makes it");
+                say(stage.toys->empty() ? "toasters.glb is missing; build the target content, which makes it"
+                                        : fmt::format("{} toasters is the maximum; Backspace removes one", Toys::kMost));
             break;
         }
         case Action::removeToy:
-            stage.removeToy();
-            say(fmt::format("{} toasters dropped", stage.toys()));
+            stage.toys->removeLast();
+            say(fmt::format("{} toasters dropped", stage.toys->dropped()));
             break;
         case Action::clearToys:
-            stage.clearToys();
+            while (stage.toys->dropped() > 0) stage.toys->removeLast();
             say("no toasters dropped");
             break;
+        case Action::grabToy: {
+            const Toys::Grabbed grabbed = stage.toys->pickOrThrow(m_camera);
+            if (grabbed == Toys::Grabbed::nothing) say("no dropped toaster ahead within reach; T drops one");
+            else say(grabbed == Toys::Grabbed::picked ? "picked up a toaster; H throws it" : "threw a toaster");
+            break;
+        }
     }
 }
 
@@ -306,12 +312,16 @@ void Session::advance(const app::Window& window, float seconds, bool keysTaken) 
         time += seconds * pace;
     }
     if (!keysTaken) {
+        const glm::vec3 from = player.camera().eye;
         player.update(window, seconds, stage.moveSpeed(), {stage.info.floor, stage.info.walkMin, stage.info.walkMax});
+        if (player.walking && player.moved()) player.moveTo(stage.toys->slide(from, player.camera().eye));
         if (following && player.moved()) {  // camera input ends following
             follow(false);
         }
     }
     m_camera = following ? stage.camera(m_follow, time) : player.camera();
+    const Toys::Pusher pusher{m_camera, player.walking};
+    stage.toys->advance(time, following ? nullptr : &pusher, false);
     if (recorder.running() && !recorder.add(time, m_camera)) stopRecording();
 }
 

@@ -49,7 +49,7 @@ std::string Session::command(VkExtent2D size) const {
     if (options.animation != "all") list.push_back({"--animation", options.animation});
     if (options.bare) list.push_back({"--bare", ""});
     if (options.skipMasked) list.push_back({"--skip-masked", ""});
-    if (stage.toys()) list.push_back({"--toys", std::to_string(stage.toys())});
+    if (stage.toys->dropped()) list.push_back({"--toys", std::to_string(stage.toys->dropped())});
     if (view != render::View::final)
         list.push_back({"--view", view == render::View::pass ? "pass:" + passView : std::string(render::name(view))});
     if (usesRecommendation())
